@@ -1,0 +1,12 @@
+// The subcommands, one file each: a function that adds the command to the program.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ofm {
+
+void AddRunCommand(CLI::App& app);
+void AddEvaluateCommand(CLI::App& app);
+void AddDemoCommand(CLI::App& app);
+
+}  // namespace ofm

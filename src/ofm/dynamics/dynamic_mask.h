@@ -1,0 +1,17 @@
+// What moves in a frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace ofm {
+
+/// Where a frame must not be trusted, and the points that told so.
+struct DynamicMask {
+  cv::Mat mask;                                 ///< CV_8UC1 of the image's size, 255 = dynamic
+  std::vector<Eigen::Vector2f> dynamic_points;  ///< [px] found moving by optical flow
+  double masked_share = 0;                      ///< of the image's pixels, 0 to 1
+};
+
+}  // namespace ofm
