@@ -1,0 +1,59 @@
+#include "ofm/features/frame_features.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ofm/base/check.h"
+
+namespace ofm {
+namespace {
+
+/// Depth at a pixel [m]; 0 where there is none.
+float DepthAt(const cv::Mat& depth_m, const Eigen::Vector2f& pixel) {
+  const int column = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, depth_m.cols - 1);
+  const int row = std::clamp(static_cast<int>(std::lround(pixel.y())), 0, depth_m.rows - 1);
+  const float depth = depth_m.at<float>(row, column);
+  return std::isfinite(depth) && depth > 0 ? depth : 0;
+}
+
+}  // namespace
+
+OctaveScales::OctaveScales(int levels, double scale_factor) {
+  OFM_CHECK(levels > 0 && scale_factor > 1);
+  double scale = 1;
+  for (int i = 0; i < levels; ++i, scale *= scale_factor) {
+    scales_.push_back(static_cast<float>(scale));
+  }
+}
+
+int OctaveScales::PredictOctave(float max_distance_m, float distance_m) const {
+  const float ratio = max_distance_m / std::max(distance_m, 1e-6F);
+  int octave = 0;
+  while (octave + 1 < levels() && scales_[octave] < ratio) ++octave;
+  return octave;
+}
+
+std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
+                                                       const PinholeCamera& camera) {
+  OFM_CHECK(features.keypoints.size() == features.descriptors.size());
+  auto frame = std::make_shared<FrameFeatures>();
+  frame->keypoints = std::move(features.keypoints);
+  frame->descriptors = std::move(features.descriptors);
+  frame->ideal_px.reserve(frame->size());
+  frame->depth_m.reserve(frame->size());
+  for (const Keypoint& keypoint : frame->keypoints) {
+    frame->ideal_px.push_back(camera.Undistort(keypoint.pixel.cast<double>()).cast<float>());
+    frame->depth_m.push_back(DepthAt(depth_m, keypoint.pixel));
+  }
+  frame->grid = FeatureGrid(frame->ideal_px, camera.width, camera.height);
+  return frame;
+}
+
+std::optional<Eigen::Vector3d> PointInCamera(const FrameFeatures& features, int index,
+                                             const PinholeCamera& camera) {
+  const float depth = features.depth_m[index];
+  if (depth <= 0) return {};
+  return camera.UnprojectIdeal(features.ideal_px[index].cast<double>(), depth);
+}
+
+}  // namespace ofm

@@ -1,0 +1,51 @@
+// A frame as tracking and mapping see it: features with ideal pixels and depth.
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "ofm/camera/pinhole_camera.h"
+#include "ofm/features/feature_grid.h"
+#include "ofm/features/features.h"
+
+namespace ofm {
+
+/// Features of one frame with what the camera adds to them. All lists are indexed by feature.
+struct FrameFeatures {
+  std::vector<Keypoint> keypoints;
+  std::vector<Descriptor> descriptors;
+  std::vector<Eigen::Vector2f> ideal_px;  ///< undistorted [px]
+  std::vector<float> depth_m;             ///< 0 = not measured
+  FeatureGrid grid;                       ///< over ideal_px
+
+  std::size_t size() const { return keypoints.size(); }
+};
+
+/// Pyramid scales by octave, so that nobody computes powers.
+class OctaveScales {
+ public:
+  OctaveScales(int levels, double scale_factor);
+
+  int levels() const { return static_cast<int>(scales_.size()); }
+  /// scale_factor^octave.
+  float Scale(int octave) const { return scales_[octave]; }
+  /// The octave at which a point seen first at `max_distance_m / Scale(levels - 1)` appears from
+  /// `distance_m`; clamped to the pyramid.
+  int PredictOctave(float max_distance_m, float distance_m) const;
+
+ private:
+  std::vector<float> scales_;
+};
+
+/// Undistorts `features` and reads their depth from `depth_m` (CV_32FC1 [m], 0 = none). Places
+/// without depth get 0.
+std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
+                                                       const PinholeCamera& camera);
+
+/// The feature's point in the camera's frame [m]; empty where depth was not measured.
+std::optional<Eigen::Vector3d> PointInCamera(const FrameFeatures& features, int index,
+                                             const PinholeCamera& camera);
+
+}  // namespace ofm

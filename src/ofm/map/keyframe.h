@@ -1,0 +1,24 @@
+// A frame that the map keeps.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ofm/base/ids.h"
+#include "ofm/features/frame_features.h"
+#include "ofm/geometry/rigid_transform.h"
+
+namespace ofm {
+
+struct Keyframe {
+  KeyframeId id;
+  FrameId frame_id;
+  std::int64_t stamp_ns = 0;
+  RigidTransform camera_from_world;
+  std::shared_ptr<const FrameFeatures> features;
+  std::vector<LandmarkId> landmarks;  ///< by feature; invalid where none
+
+  Eigen::Vector3d CenterInWorld() const { return camera_from_world.Inverse().translation(); }
+};
+
+}  // namespace ofm

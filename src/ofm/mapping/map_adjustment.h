@@ -1,0 +1,21 @@
+// Bundle adjustment of a part of the map, or of all of it.
+#pragma once
+
+#include <stop_token>
+
+#include "ofm/map/map.h"
+#include "ofm/mapping/options.h"
+#include "ofm/tracking/measurement.h"
+
+namespace ofm {
+
+/// Adjusts `current`, the keyframes that share most landmarks with it and the landmarks that they
+/// see; other observers of these stay fixed. Observations over the gate leave the map.
+void AdjustLocally(Map& map, KeyframeId current, const MeasurementModel& model,
+                   const MappingOptions& options, std::stop_token stop = {});
+
+/// Adjusts all keyframes but the first, and all landmarks.
+void AdjustWholeMap(Map& map, const MeasurementModel& model, const MappingOptions& options,
+                    std::stop_token stop = {});
+
+}  // namespace ofm

@@ -1,0 +1,44 @@
+// What happens behind tracking: keyframes go into the map and into the semantic map.
+#pragma once
+
+#include <map>
+
+#include "ofm/base/timing.h"
+#include "ofm/pipeline/run_outcome.h"
+#include "ofm/pipeline/slam.h"
+
+namespace ofm {
+
+/// A keyframe on its way to mapping.
+struct KeyframeJob {
+  KeyframeCandidate candidate;
+  std::vector<Sighting> sightings;
+  LabelledFrame labelled;  ///< its id is set by the back end; no images where no map is wanted
+};
+
+/// The images and labels of a frame as the semantic map takes them.
+LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
+
+/// Runs the mapping and dense stages of `slam` for one keyframe at a time. Serves one thread.
+class BackEnd {
+ public:
+  explicit BackEnd(Slam& slam) : slam_(slam) {}
+
+  /// Puts the keyframe into the map; gives the snapshot that tracking can use at once.
+  std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
+  /// Everything that may take its time; gives the refined snapshot.
+  std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
+  /// Final adjustment and the semantic map, from the poses that then are known.
+  void Finish(RunOutcome& outcome);
+
+  /// Keyframe made of a frame, for the trajectory; by frame id.
+  const std::map<FrameId, KeyframeId>& keyframe_of_frame() const { return keyframe_of_frame_; }
+  const StageTimes& times() const { return times_; }
+
+ private:
+  Slam& slam_;
+  StageTimes times_;
+  std::map<FrameId, KeyframeId> keyframe_of_frame_;
+};
+
+}  // namespace ofm

@@ -1,0 +1,40 @@
+#include "ofm/pipeline/front_end.h"
+
+namespace ofm {
+
+FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
+                   std::unique_ptr<Segmenter> segmenter)
+    : camera_(camera),
+      segmenter_(std::move(segmenter)),
+      flow_(options.perception.flow),
+      dynamics_(camera, options.dynamics),
+      extractor_(options.features) {
+  OFM_CHECK(segmenter_ != nullptr);
+}
+
+PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
+  PreparedFrame prepared;
+  prepared.frame = std::move(frame);
+  {
+    ScopedStageTimer timer(times, "segmentation");
+    prepared.segmentation = segmenter_->Segment(prepared.frame);
+  }
+  if (dynamics_.options().mode != DynamicsMode::kOff) {
+    FlowResult flow;
+    {
+      ScopedStageTimer timer(times, "optical_flow");
+      flow = flow_.Advance(prepared.frame.gray, last_points_);
+    }
+    ScopedStageTimer timer(times, "dynamics");
+    prepared.dynamic =
+        dynamics_.Process({prepared.frame, prepared.segmentation, segmenter_->class_names(), flow});
+  }
+  ScopedStageTimer timer(times, "features");
+  Features features = extractor_.Extract(prepared.frame.gray, prepared.dynamic.mask);
+  last_points_.clear();
+  for (const Keypoint& keypoint : features.keypoints) last_points_.push_back(keypoint.pixel);
+  prepared.features = MakeFrameFeatures(std::move(features), prepared.frame.depth_m, camera_);
+  return prepared;
+}
+
+}  // namespace ofm

@@ -1,0 +1,45 @@
+// Everything that can be set, in one tree: the configuration file's structure.
+#pragma once
+
+#include <cstdint>
+
+#include "ofm/base/options.h"
+#include "ofm/dense/dense_options.h"
+#include "ofm/dynamics/dynamics_options.h"
+#include "ofm/features/orb_extractor.h"
+#include "ofm/mapping/options.h"
+#include "ofm/perception/perception_options.h"
+#include "ofm/tracking/measurement.h"
+#include "ofm/tracking/options.h"
+
+namespace ofm {
+
+struct SlamOptions {
+  std::uint64_t seed = 0;  ///< of every random draw
+  bool build_semantic_map = true;
+  bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
+  PerceptionOptions perception;
+  DynamicsOptions dynamics;
+  OrbOptions features;
+  MeasurementOptions measurement;
+  TrackingOptions tracking;
+  MappingOptions mapping;
+  DenseOptions dense;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("seed", self.seed, "of every random draw", Range{0, 1e15});
+    visit("build_semantic_map", self.build_semantic_map, "make map.ply, map.ot and map.bt");
+    visit("final_adjustment", self.final_adjustment,
+          "bundle adjustment over all keyframes at the end");
+    visit("perception", self.perception);
+    visit("dynamics", self.dynamics);
+    visit("features", self.features);
+    visit("measurement", self.measurement);
+    visit("tracking", self.tracking);
+    visit("mapping", self.mapping);
+    visit("dense", self.dense);
+  }
+};
+
+}  // namespace ofm

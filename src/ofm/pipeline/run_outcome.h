@@ -1,0 +1,36 @@
+// What a run leaves behind.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ofm/base/timing.h"
+#include "ofm/dense/semantic_mapper.h"
+#include "ofm/geometry/trajectory.h"
+#include "ofm/map/map.h"
+
+namespace ofm {
+
+struct RunCounts {
+  std::size_t frames = 0;          ///< that the system was given
+  std::size_t frames_tracked = 0;  ///< that have a pose
+  std::size_t frames_dropped = 0;  ///< that came too early (real time only)
+  std::size_t keyframes_made = 0, keyframes = 0, landmarks = 0;
+  std::size_t losses = 0;        ///< times that tracking was lost
+  double mean_masked_share = 0;  ///< of the pixels, 0 to 1
+};
+
+struct RunOutcome {
+  Trajectory trajectory;       ///< world_from_camera of every tracked frame, after optimisation
+  Trajectory live_trajectory;  ///< what was known at the time of each frame
+  Trajectory keyframe_trajectory;
+  std::shared_ptr<const MapSnapshot> map;
+  std::optional<SemanticMap> semantic_map;
+  std::vector<std::string> class_names;
+  StageTimes times;
+  RunCounts counts;
+  double wall_s = 0, process_cpu_s = 0;
+  std::string error;  ///< why the run ended before its source did; empty where it did not
+};
+
+}  // namespace ofm

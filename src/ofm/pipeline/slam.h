@@ -1,0 +1,37 @@
+// The stages of the system, wired together but not yet run: a runner decides about threads.
+#pragma once
+
+#include <memory>
+
+#include "ofm/dense/semantic_mapper.h"
+#include "ofm/mapping/mapper.h"
+#include "ofm/pipeline/front_end.h"
+#include "ofm/pipeline/options.h"
+#include "ofm/tracking/tracker.h"
+
+namespace ofm {
+
+/// One SLAM system. Several in one process do not notice one another. Each stage serves the one
+/// thread that its runner gives it.
+class Slam {
+ public:
+  Slam(const PinholeCamera& camera, const SlamOptions& options,
+       std::unique_ptr<Segmenter> segmenter);
+
+  FrontEnd& front_end() { return front_end_; }
+  Tracker& tracker() { return tracker_; }
+  Mapper& mapper() { return mapper_; }
+  SemanticMapper& semantic_mapper() { return semantic_mapper_; }
+  const SlamOptions& options() const { return options_; }
+  const PinholeCamera& camera() const { return camera_; }
+
+ private:
+  PinholeCamera camera_;
+  SlamOptions options_;
+  FrontEnd front_end_;
+  Tracker tracker_;
+  Mapper mapper_;
+  SemanticMapper semantic_mapper_;
+};
+
+}  // namespace ofm

@@ -1,0 +1,60 @@
+#include "ofm/pipeline/tracking_loop.h"
+
+namespace ofm {
+
+std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
+                                                 std::shared_ptr<const MapSnapshot> map,
+                                                 int keyframes_waiting) {
+  TrackingInput input;
+  input.frame_id = prepared.frame.id;
+  input.stamp_ns = prepared.frame.stamp_ns;
+  input.features = prepared.features;
+  input.map = std::move(map);
+  input.keyframes_waiting = keyframes_waiting;
+  TrackingResult result;
+  {
+    ScopedStageTimer timer(times_, "tracking");
+    result = slam_.tracker().Process(input);
+  }
+  log_.Add(input.frame_id, input.stamp_ns, result);
+  const bool lost = result.status == TrackingStatus::kLost;
+  if (lost && !lost_) ++losses_;
+  lost_ = lost;
+  masked_sum_ += prepared.dynamic.masked_share;
+  sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
+  FrameReport report{prepared, result, log_.frames()};
+  if (input.map) {
+    report.keyframes = input.map->keyframe_count;
+    report.landmarks = input.map->landmark_count;
+  }
+  for (RunObserver* observer : context_.observers) observer->OnFrame(report);
+  if (!result.keyframe) return {};
+  ++keyframes_made_;
+  KeyframeJob job;
+  job.candidate = std::move(*result.keyframe);
+  job.sightings = std::move(sightings_);
+  sightings_.clear();
+  if (slam_.options().build_semantic_map) job.labelled = MakeLabelledFrame(prepared);
+  return job;
+}
+
+void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
+  for (const auto& [frame, keyframe] : back_end.keyframe_of_frame()) {
+    log_.SetKeyframe(frame, keyframe);
+  }
+  outcome.trajectory = log_.Optimized(*outcome.map);
+  outcome.live_trajectory = log_.Live();
+  outcome.keyframe_trajectory = KeyframeTrajectory(*outcome.map);
+  outcome.class_names = slam_.front_end().class_names();
+  outcome.times.Merge(times_);
+  outcome.times.Merge(back_end.times());
+  outcome.counts.frames = log_.frames();
+  outcome.counts.frames_tracked = log_.CountWithPose();
+  outcome.counts.keyframes_made = keyframes_made_;
+  outcome.counts.keyframes = outcome.map->keyframe_count;
+  outcome.counts.landmarks = outcome.map->landmark_count;
+  outcome.counts.losses = losses_;
+  if (log_.frames() > 0) outcome.counts.mean_masked_share = masked_sum_ / log_.frames();
+}
+
+}  // namespace ofm

@@ -1,0 +1,54 @@
+#include "ofm/pipeline/trajectory_log.h"
+
+#include <algorithm>
+
+namespace ofm {
+
+void TrajectoryLog::Add(FrameId frame, std::int64_t stamp_ns, const TrackingResult& result) {
+  OFM_CHECK(entries_.empty() || entries_.back().frame < frame);
+  entries_.push_back({frame, stamp_ns, result.status, result.camera_from_world.Inverse(),
+                      result.reference, result.camera_from_reference});
+}
+
+void TrajectoryLog::SetKeyframe(FrameId frame, KeyframeId keyframe) {
+  const auto before = [](const Entry& entry, FrameId id) { return entry.frame < id; };
+  const auto entry = std::lower_bound(entries_.begin(), entries_.end(), frame, before);
+  OFM_CHECK(entry != entries_.end() && entry->frame == frame);
+  entry->reference = keyframe;
+  entry->camera_from_reference = RigidTransform();
+}
+
+Trajectory TrajectoryLog::Live() const {
+  Trajectory trajectory;
+  for (const Entry& entry : entries_) {
+    if (HasPose(entry.status)) trajectory.push_back({entry.stamp_ns, entry.world_from_camera});
+  }
+  return trajectory;
+}
+
+Trajectory TrajectoryLog::Optimized(const MapSnapshot& map) const {
+  Trajectory trajectory;
+  for (const Entry& entry : entries_) {
+    if (!HasPose(entry.status)) continue;
+    const auto reference = map.FindKeyframePose(entry.reference);
+    const RigidTransform world_from_camera =
+        reference ? (entry.camera_from_reference * *reference).Inverse() : entry.world_from_camera;
+    trajectory.push_back({entry.stamp_ns, world_from_camera});
+  }
+  return trajectory;
+}
+
+std::size_t TrajectoryLog::CountWithPose() const {
+  return std::count_if(entries_.begin(), entries_.end(),
+                       [](const Entry& entry) { return HasPose(entry.status); });
+}
+
+Trajectory KeyframeTrajectory(const MapSnapshot& map) {
+  Trajectory trajectory;
+  map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    trajectory.push_back({keyframe.stamp_ns, keyframe.camera_from_world.Inverse()});
+  });
+  return trajectory;
+}
+
+}  // namespace ofm

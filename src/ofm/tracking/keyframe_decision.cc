@@ -1,0 +1,47 @@
+#include "ofm/tracking/keyframe_decision.h"
+
+#include <algorithm>
+
+namespace ofm {
+
+int CountWellObserved(const MapSnapshot& map, const Keyframe& keyframe, int min_observations) {
+  int count = 0;
+  for (const LandmarkId id : keyframe.landmarks) {
+    const Landmark* landmark = id.valid() ? map.FindLandmark(id) : nullptr;
+    if (landmark != nullptr &&
+        static_cast<int>(landmark->observations.size()) >= min_observations) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+KeyframeEvidence GatherKeyframeEvidence(const MeasurementModel& model, const TrackingInput& input,
+                                        const TrackingResult& result, FrameId last_keyframe) {
+  KeyframeEvidence evidence;
+  evidence.frames_since_keyframe = static_cast<int>(input.frame_id.value - last_keyframe.value);
+  evidence.inliers = result.inliers;
+  evidence.keyframes_waiting = input.keyframes_waiting;
+  for (std::size_t i = 0; i < input.features->size(); ++i) {
+    const float depth = input.features->depth_m[i];
+    if (depth <= 0 || depth > model.CloseDepth()) continue;
+    ++(result.landmarks[i].valid() ? evidence.close_tracked : evidence.close_untracked);
+  }
+  const Keyframe* reference = input.map->keyframes.Find(result.reference);
+  if (reference != nullptr) {
+    const int min_observations = input.map->keyframe_count <= 2 ? 1 : 2;
+    evidence.reference_landmarks = CountWellObserved(*input.map, *reference, min_observations);
+  }
+  return evidence;
+}
+
+bool NeedsKeyframe(const KeyframeEvidence& evidence, const KeyframeOptions& options) {
+  if (evidence.inliers < options.min_inliers) return false;
+  if (evidence.keyframes_waiting >= options.max_waiting) return false;
+  const bool close_needed = evidence.close_tracked < options.close_tracked &&
+                            evidence.close_untracked > options.close_untracked;
+  const bool few = evidence.inliers < options.inlier_ratio * evidence.reference_landmarks;
+  return few || close_needed || evidence.frames_since_keyframe >= options.max_frames;
+}
+
+}  // namespace ofm

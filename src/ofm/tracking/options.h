@@ -1,0 +1,77 @@
+#pragma once
+
+#include "ofm/base/options.h"
+#include "ofm/estimation/pnp.h"
+#include "ofm/estimation/pose_optimizer.h"
+
+namespace ofm {
+
+/// When a frame becomes a keyframe (figures as published for ORB-SLAM2).
+struct KeyframeOptions {
+  double inlier_ratio = 0.75;  ///< of the reference keyframe's landmarks; fewer call for a keyframe
+  int max_frames = 30;         ///< since the last keyframe
+  int min_inliers = 15;        ///< fewer make no keyframe
+  int close_tracked = 100;     ///< fewer tracked close points call for a keyframe, …
+  int close_untracked = 70;    ///< … where more than so many could be added
+  int max_waiting = 3;         ///< keyframes that may wait for mapping
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("inlier_ratio", self.inlier_ratio,
+          "a keyframe is made under this share of the reference's landmarks", Range{0.05, 1});
+    visit("max_frames", self.max_frames, "frames after which a keyframe is made", Range{1, 10000});
+    visit("min_inliers", self.min_inliers, "fewer inliers make no keyframe", Range{3, 1000});
+    visit("close_tracked", self.close_tracked, "fewer tracked close points call for a keyframe",
+          Range{0, 10000});
+    visit("close_untracked", self.close_untracked,
+          "where more close points than this are untracked", Range{0, 10000});
+    visit("max_waiting", self.max_waiting, "keyframes that may wait for mapping", Range{1, 1000});
+  }
+};
+
+struct TrackingOptions {
+  int min_start_features = 300;  ///< with depth, to begin a map
+  double search_radius_px = 15;  ///< frame to frame, at octave 0
+  int min_motion_matches =
+      20;                      ///< fewer widen the search, then fall back to the reference keyframe
+  int min_frame_inliers = 10;  ///< frame to frame
+  int min_map_inliers = 30;    ///< against the local map; fewer are a loss
+  int min_relocalization_inliers = 50;
+  int max_local_keyframes = 60;
+  int max_hamming = 100;     ///< bits
+  double ratio = 0.9;        ///< best to second best distance, frame to frame
+  double map_ratio = 0.8;    ///< the same, against the local map
+  double map_radius_px = 3;  ///< multiplies the local map's search radius of 2.5 or 4
+  KeyframeOptions keyframe;
+  PoseOptimizerOptions pose;
+  PnpOptions pnp;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("min_start_features", self.min_start_features, "features with depth that begin a map",
+          Range{10, 100000});
+    visit("search_radius_px", self.search_radius_px, "frame-to-frame search at octave 0 [px]",
+          Range{1, 200});
+    visit("min_motion_matches", self.min_motion_matches,
+          "fewer matches widen the search, then try the reference keyframe", Range{4, 1000});
+    visit("min_frame_inliers", self.min_frame_inliers, "inliers needed frame to frame",
+          Range{4, 1000});
+    visit("min_map_inliers", self.min_map_inliers, "inliers needed against the local map",
+          Range{4, 1000});
+    visit("min_relocalization_inliers", self.min_relocalization_inliers,
+          "inliers needed to relocalise", Range{4, 1000});
+    visit("max_local_keyframes", self.max_local_keyframes, "keyframes of the local map at most",
+          Range{1, 10000});
+    visit("max_hamming", self.max_hamming, "descriptor distance of a match at most [bits]",
+          Range{1, 256});
+    visit("ratio", self.ratio, "best to second best distance, frame to frame", Range{0.1, 1});
+    visit("map_ratio", self.map_ratio, "best to second best distance, local map", Range{0.1, 1});
+    visit("map_radius_px", self.map_radius_px, "scales the local map's search radius",
+          Range{0.1, 50});
+    visit("keyframe", self.keyframe);
+    visit("pose", self.pose);
+    visit("pnp", self.pnp);
+  }
+};
+
+}  // namespace ofm

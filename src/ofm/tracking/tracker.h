@@ -1,0 +1,47 @@
+// The tracking stage: the camera's pose for every frame.
+#pragma once
+
+#include <optional>
+
+#include "ofm/base/random.h"
+#include "ofm/tracking/frame_matcher.h"
+#include "ofm/tracking/tracking_types.h"
+
+namespace ofm {
+
+/// Follows the camera against snapshots of the map: prediction by constant velocity, frame to
+/// frame, then the local map (the scheme published for ORB-SLAM2, Mur-Artal and Tardos 2017,
+/// section III). Serves one thread.
+class Tracker {
+ public:
+  /// `seed` decides all random draws, together with the frame's id.
+  Tracker(const MeasurementModel& model, const TrackingOptions& options, std::uint64_t seed);
+
+  /// Tracks one frame. Frames come in increasing order of id and time.
+  TrackingResult Process(const TrackingInput& input);
+
+ private:
+  struct Estimate;
+
+  TrackingResult Initialize(const TrackingInput& input) const;
+  void SyncWithMap(const MapSnapshot& map);
+  std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
+  std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,
+                                            int min_inliers) const;
+  std::optional<Estimate> Relocalize(const TrackingInput& input) const;
+  bool TrackLocalMap(const TrackingInput& input, Estimate& estimate, TrackingResult& result) const;
+  std::optional<Estimate> OptimizeMatches(const TrackingInput& input, const RigidTransform& initial,
+                                          const std::vector<PointMatch>& matches) const;
+  void Remember(const TrackingInput& input, const TrackingResult& result);
+
+  MeasurementModel model_;
+  TrackingOptions options_;
+  std::uint64_t seed_;
+  std::optional<TrackedFrame> last_;      // with a pose; empty while lost or waiting
+  KeyframeId reference_;                  // of the last frame with a pose
+  RigidTransform camera_from_reference_;  // of the last frame with a pose
+  std::optional<RigidTransform> motion_;  // this camera from the last one, constant velocity
+  FrameId last_keyframe_frame_;           // the newest frame that was proposed as keyframe
+};
+
+}  // namespace ofm

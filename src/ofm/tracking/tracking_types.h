@@ -1,0 +1,64 @@
+// What goes into the tracking stage and what comes out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ofm/base/ids.h"
+#include "ofm/features/frame_features.h"
+#include "ofm/map/map.h"
+
+namespace ofm {
+
+enum class TrackingStatus {
+  kWaiting,      ///< no map yet, and the frame has too few features with depth to begin one
+  kInitialized,  ///< this frame begins the map
+  kTracked,      ///< the pose is known
+  kRelocalized,  ///< the pose is known again, after a loss
+  kLost,         ///< the pose is not known
+};
+
+/// True where the frame has a pose.
+inline bool HasPose(TrackingStatus status) {
+  return status == TrackingStatus::kInitialized || status == TrackingStatus::kTracked ||
+         status == TrackingStatus::kRelocalized;
+}
+
+struct TrackingInput {
+  FrameId frame_id;
+  std::int64_t stamp_ns = 0;
+  std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const MapSnapshot> map;
+  int keyframes_waiting = 0;  ///< for mapping; 0 where it is idle
+};
+
+/// A frame that should become a keyframe.
+struct KeyframeCandidate {
+  FrameId frame_id;
+  std::int64_t stamp_ns = 0;
+  RigidTransform camera_from_world;
+  KeyframeId reference;  ///< against which the pose is known; invalid for the first
+  RigidTransform camera_from_reference;
+  std::shared_ptr<const FrameFeatures> features;
+  std::vector<LandmarkId> landmarks;  ///< by feature
+};
+
+/// That a landmark was looked for, and whether it was found.
+struct Sighting {
+  LandmarkId landmark;
+  bool found = false;
+};
+
+struct TrackingResult {
+  TrackingStatus status = TrackingStatus::kWaiting;
+  RigidTransform camera_from_world;  ///< valid where HasPose(status)
+  KeyframeId reference;              ///< keyframe that shares most landmarks; invalid at first
+  RigidTransform camera_from_reference;
+  std::vector<LandmarkId> landmarks;  ///< by feature: inliers of the pose
+  std::vector<Sighting> sightings;
+  int inliers = 0;
+  std::optional<KeyframeCandidate> keyframe;
+};
+
+}  // namespace ofm
