@@ -9,6 +9,8 @@
 
 namespace ofm {
 
+struct OrbKernels;
+
 struct OrbOptions {
   int count = 1000;            ///< key points wanted per image
   int levels = 8;              ///< of the pyramid
@@ -31,6 +33,8 @@ struct OrbOptions {
 class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbOptions& options);
+  /// With other inner loops than this processor's best; they outlive the extractor.
+  OrbExtractor(const OrbOptions& options, const OrbKernels& kernels);
   ~OrbExtractor();
 
   /// About options.count features of `gray` (CV_8UC1), none where `excluded` (empty, or CV_8UC1 of
@@ -45,6 +49,11 @@ class OrbExtractor {
 
  private:
   struct Workspace;
+
+  Eigen::Vector2f InFullImage(const Eigen::Vector2f& pixel, int octave) const;
+  std::vector<int> DetectOnAllLevels(const cv::Mat& excluded);
+  void Describe(int octave, int count, const cv::Mat& excluded, Features& features);
+
   OrbOptions options_;
   std::unique_ptr<Workspace> workspace_;
 };

@@ -1,0 +1,125 @@
+#include "ofm/features/orb_extractor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ofm/base/check.h"
+#include "ofm/features/brief_pattern.h"
+#include "ofm/features/even_distribution.h"
+#include "ofm/features/fast_corners.h"
+#include "ofm/features/image_pyramid.h"
+#include "ofm/features/orb_kernels.h"
+
+namespace ofm {
+namespace {
+
+/// The disc of kPatchRadius and one pixel to find maxima in must lie in the image.
+constexpr int kMargin = kPatchRadius + 1;
+/// Cells that take weak corners where they have no strong one [px of the level].
+constexpr int kCellSize = 30;
+
+float OrientationOf(const CentroidMoments& moments) {
+  const float angle = std::atan2(static_cast<float>(moments.y), static_cast<float>(moments.x));
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  const float positive = angle < 0 ? angle + kTurn : angle;
+  return positive < kTurn ? positive : 0;
+}
+
+bool IsExcluded(const cv::Mat& excluded, const Eigen::Vector2f& pixel) {
+  if (excluded.empty()) return false;
+  const int x = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, excluded.cols - 1);
+  const int y = std::clamp(static_cast<int>(std::lround(pixel.y())), 0, excluded.rows - 1);
+  return excluded.ptr(y)[x] != 0;
+}
+
+}  // namespace
+
+struct OrbExtractor::Workspace {
+  Workspace(const OrbOptions& options, const OrbKernels& chosen)
+      : kernels(chosen),
+        pyramid(options.levels, options.scale_factor, chosen),
+        detectors(options.levels, FastDetector(chosen)),
+        rotations(kBriefPattern) {}
+
+  const OrbKernels& kernels;
+  ImagePyramid pyramid;
+  std::vector<FastDetector> detectors;  ///< one for each level
+  EvenSelector selector;
+  PatternRotations rotations;
+  PatchBuffer patch;
+};
+
+OrbExtractor::OrbExtractor(const OrbOptions& options) : OrbExtractor(options, BestOrbKernels()) {}
+
+OrbExtractor::OrbExtractor(const OrbOptions& options, const OrbKernels& kernels)
+    : options_(options), workspace_(std::make_unique<Workspace>(options, kernels)) {}
+
+OrbExtractor::~OrbExtractor() = default;
+
+float OrbExtractor::ScaleOf(int octave) const {
+  return static_cast<float>(std::pow(options_.scale_factor, octave));
+}
+
+Eigen::Vector2f OrbExtractor::InFullImage(const Eigen::Vector2f& pixel, int octave) const {
+  const Eigen::Vector2f half = Eigen::Vector2f::Constant(0.5f);
+  return (pixel + half) * ScaleOf(octave) - half;
+}
+
+Features OrbExtractor::Extract(const cv::Mat& gray, const cv::Mat& excluded) {
+  OFM_CHECK(gray.type() == CV_8UC1);
+  OFM_CHECK(excluded.empty() || (excluded.type() == CV_8UC1 && excluded.size() == gray.size()));
+  workspace_->pyramid.Build(gray);
+  const std::vector<int> counts = DetectOnAllLevels(excluded);
+  Features features;
+  features.keypoints.reserve(options_.count);
+  features.descriptors.reserve(options_.count);
+  for (std::size_t octave = 0; octave < counts.size(); ++octave) {
+    if (counts[octave] > 0) Describe(static_cast<int>(octave), counts[octave], excluded, features);
+  }
+  return features;
+}
+
+/// Finds each level's corners; returns how many of them to take.
+std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded) {
+  const int levels = workspace_->pyramid.levels();
+  const int low = std::min(options_.min_fast_threshold, options_.fast_threshold) - 1;
+  std::vector<int> available(levels);
+  std::vector<double> weights(levels);
+  for (int octave = 0; octave < levels; ++octave) {
+    std::vector<Corner>& corners =
+        workspace_->detectors[octave].Detect(workspace_->pyramid.image(octave), low, kMargin);
+    if (!excluded.empty()) {
+      std::erase_if(corners, [&](const Corner& corner) {
+        return IsExcluded(excluded, InFullImage(Eigen::Vector2f(corner.x, corner.y), octave));
+      });
+    }
+    DropWeakWhereStrong(corners, options_.fast_threshold, kCellSize);
+    available[octave] = static_cast<int>(corners.size());
+    weights[octave] = 1 / ScaleOf(octave);
+  }
+  return AllocateCounts(available, weights, options_.count);
+}
+
+/// Adds the `count` best corners of a level.
+void OrbExtractor::Describe(int octave, int count, const cv::Mat& excluded, Features& features) {
+  Workspace& w = *workspace_;
+  w.pyramid.Smooth(octave);
+  const PaddedImage& image = w.pyramid.image(octave);
+  const PaddedImage& smooth = w.pyramid.smooth(octave);
+  for (const Corner& corner : w.selector.Select(w.detectors[octave].corners(), count)) {
+    const Eigen::Vector2f centre(corner.x, corner.y);
+    Keypoint keypoint;
+    keypoint.pixel = InFullImage(centre + w.detectors[octave].RefinedOffset(corner), octave);
+    if (IsExcluded(excluded, keypoint.pixel)) keypoint.pixel = InFullImage(centre, octave);
+    keypoint.octave = octave;
+    keypoint.response = corner.score;
+    keypoint.angle_rad =
+        OrientationOf(w.kernels.centroid(image.Row(corner.y) + corner.x, image.stride()));
+    w.kernels.copy_patch(smooth.Row(corner.y) + corner.x, smooth.stride(), w.patch);
+    features.keypoints.push_back(keypoint);
+    features.descriptors.push_back(w.kernels.describe(w.patch, w.rotations.At(keypoint.angle_rad)));
+  }
+}
+
+}  // namespace ofm
