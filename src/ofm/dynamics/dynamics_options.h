@@ -1,0 +1,68 @@
+// How moving things are told from static ones.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ofm/base/options.h"
+
+namespace ofm {
+
+enum class DynamicsMode {
+  kOff,    ///< everything is static
+  kPaper,  ///< instances of dynamic classes and points off their epipolar line are dynamic
+};
+
+inline EnumNameList<DynamicsMode> EnumNames(DynamicsMode) {
+  static constexpr std::array<std::pair<DynamicsMode, std::string_view>, 2> kNames{{
+      {DynamicsMode::kOff, "off"},
+      {DynamicsMode::kPaper, "paper"},
+  }};
+  return kNames;
+}
+
+/// Two-view geometry of the static scene and the distance from it that means motion.
+struct EpipolarOptions {
+  double threshold_px = 6;         ///< farther from its epipolar line a point moves
+  double ransac_threshold_px = 1;  ///< within which a point supports a fundamental matrix
+  double ransac_confidence = 0.99;
+  int ransac_iterations = 500;    ///< at most
+  int min_points = 30;            ///< fewer static candidates give no verdict
+  double min_inlier_share = 0.5;  ///< of the candidates; below, the matrix is not believed
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("threshold_px", self.threshold_px, "distance to the epipolar line that means motion [px]",
+          Range{0.1, 1000});
+    visit("ransac_threshold_px", self.ransac_threshold_px,
+          "distance within which a point supports a fundamental matrix [px]", Range{0.1, 100});
+    visit("ransac_confidence", self.ransac_confidence, "wanted of RANSAC", Range{0.5, 0.99999});
+    visit("ransac_iterations", self.ransac_iterations, "of RANSAC, at most", Range{1, 100000});
+    visit("min_points", self.min_points, "fewer points give no verdict", Range{15, 100000});
+    visit("min_inlier_share", self.min_inlier_share,
+          "of the points; below it the fundamental matrix is not believed", Range{0, 1});
+  }
+};
+
+struct DynamicsOptions {
+  DynamicsMode mode = DynamicsMode::kPaper;
+  std::vector<std::string> dynamic_classes = {"person"};  ///< moving whatever they do
+  int dilation_px = 7;                                    ///< radius by which their masks grow
+  double exclusion_radius_px = 10;                        ///< around a point found moving by flow
+  EpipolarOptions epipolar;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("mode", self.mode, "what is culled");
+    visit("dynamic_classes", self.dynamic_classes, "classes that are moving whatever they do");
+    visit("dilation_px", self.dilation_px, "radius by which their masks grow [px]", Range{0, 100});
+    visit("exclusion_radius_px", self.exclusion_radius_px,
+          "radius masked around a point found moving by flow [px]", Range{0, 100});
+    visit("epipolar", self.epipolar, "motion by epipolar geometry");
+  }
+};
+
+}  // namespace ofm

@@ -1,0 +1,107 @@
+#include "ofm/dynamics/dynamics_stage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "ofm/base/check.h"
+#include "ofm/base/error.h"
+#include "ofm/dynamics/epipolar_check.h"
+#include "ofm/dynamics/mask_dilation.h"
+#include "ofm/perception/class_names.h"
+
+namespace ofm {
+namespace {
+
+std::vector<ClassId> FindDynamicClasses(const std::vector<std::string>& names,
+                                        const std::vector<std::string>& class_names) {
+  std::vector<ClassId> classes;
+  if (class_names.empty()) return classes;
+  for (const std::string& name : names) {
+    classes.push_back(FindClass(class_names, name));
+    if (!classes.back().valid()) {
+      throw Error(
+          fmt::format("dynamics.dynamic_classes: the segmenter knows no class '{}'; it has {}",
+                      name, fmt::join(class_names, ", ")));
+    }
+  }
+  return classes;
+}
+
+bool IsSet(const cv::Mat& mask, const Eigen::Vector2f& point) {
+  const int x = static_cast<int>(std::lround(point.x()));
+  const int y = static_cast<int>(std::lround(point.y()));
+  return x >= 0 && y >= 0 && x < mask.cols && y < mask.rows && mask.at<std::uint8_t>(y, x) != 0;
+}
+
+/// Discs with sub-pixel centres.
+void AddDiscs(const std::vector<Eigen::Vector2f>& centres, double radius_px, cv::Mat& mask) {
+  constexpr int kFractionBits = 4;
+  constexpr double kUnits = 1 << kFractionBits;
+  for (const Eigen::Vector2f& centre : centres) {
+    const cv::Point place(static_cast<int>(std::lround(centre.x() * kUnits)),
+                          static_cast<int>(std::lround(centre.y() * kUnits)));
+    cv::circle(mask, place, static_cast<int>(std::lround(radius_px * kUnits)), cv::Scalar(255),
+               cv::FILLED, cv::LINE_8, kFractionBits);
+  }
+}
+
+}  // namespace
+
+DynamicsStage::DynamicsStage(const DynamicsOptions& options, const PinholeCamera& camera,
+                             const std::vector<std::string>& class_names)
+    : options_(options),
+      camera_(camera),
+      dynamic_classes_(FindDynamicClasses(options.dynamic_classes, class_names)) {}
+
+DynamicMask DynamicsStage::Process(const DynamicsInput& input) const {
+  DynamicMask result;
+  result.mask = cv::Mat::zeros(input.frame.gray.size(), CV_8UC1);
+  if (options_.mode == DynamicsMode::kOff) return result;
+
+  AddInstances(input.segmentation, result.mask);
+  result.dynamic_points = FindMovingPoints(input.flow, result.mask);
+  AddDiscs(result.dynamic_points, options_.exclusion_radius_px, result.mask);
+  result.masked_share =
+      static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
+  return result;
+}
+
+void DynamicsStage::AddInstances(const Segmentation& segmentation, cv::Mat& mask) const {
+  for (const Instance& instance : segmentation.instances) {
+    const bool is_dynamic = std::find(dynamic_classes_.begin(), dynamic_classes_.end(),
+                                      instance.class_id) != dynamic_classes_.end();
+    if (!is_dynamic) continue;
+    OFM_CHECK(instance.mask.size() == mask.size());
+    AddDilated(instance.mask, options_.dilation_px, mask);
+  }
+}
+
+std::vector<Eigen::Vector2f> DynamicsStage::FindMovingPoints(const FlowResult& flow,
+                                                             const cv::Mat& instance_mask) const {
+  PointPairs tracked, candidates;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < flow.size(); ++i) {
+    if (!flow.IsTracked(i)) continue;
+    indices.push_back(i);
+    tracked.Add(camera_.Undistort(flow.previous[i].cast<double>()),
+                camera_.Undistort(flow.current[i].cast<double>()));
+    if (IsSet(instance_mask, flow.current[i])) continue;
+    candidates.Add(tracked.first.back(), tracked.second.back());
+  }
+  const auto fit = FitFundamental(candidates, options_.epipolar);
+  std::vector<Eigen::Vector2f> moving;
+  if (!fit) return moving;
+  for (std::size_t k = 0; k < tracked.size(); ++k) {
+    const double distance =
+        EpipolarDistance(fit->second_from_first, tracked.first[k], tracked.second[k]);
+    if (distance > options_.epipolar.threshold_px) moving.push_back(flow.current[indices[k]]);
+  }
+  return moving;
+}
+
+}  // namespace ofm

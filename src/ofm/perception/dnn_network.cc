@@ -1,0 +1,93 @@
+#include "ofm/perception/dnn_network.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "ofm/base/check.h"
+#include "ofm/base/error.h"
+#include "ofm/perception/onnx_header.h"
+
+namespace ofm {
+namespace {
+
+/// OpenCV logs what it also throws; silent while this lives.
+class ScopedOpenCvSilence {
+ public:
+  ScopedOpenCvSilence()
+      : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~ScopedOpenCvSilence() { cv::utils::logging::setLogLevel(level_); }
+  ScopedOpenCvSilence(const ScopedOpenCvSilence&) = delete;
+  ScopedOpenCvSilence& operator=(const ScopedOpenCvSilence&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel level_;
+};
+
+/// The first line of OpenCV's reason, without its source file.
+std::string Reason(const cv::Exception& exception) {
+  return exception.err.substr(0, exception.err.find('\n'));
+}
+
+std::vector<char> ReadFile(const std::filesystem::path& path) {
+  if (path.empty()) {
+    throw Error("no network given; set perception.model (--model) to an ONNX file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path)) {
+    throw Error(path, "no such network; give the path of an ONNX file");
+  }
+  std::vector<char> bytes(std::filesystem::file_size(path));
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+    throw Error(path, "cannot be read");
+  }
+  return bytes;
+}
+
+/// Width and height of the image input of `bytes`; `wanted` goes first where it is not empty.
+cv::Size FindInputSize(const std::vector<char>& bytes, const std::filesystem::path& path,
+                       cv::Size wanted) {
+  const std::vector<OnnxInput> inputs = ReadOnnxInputs(bytes, path);
+  const std::vector<std::int64_t>& shape = inputs.front().shape;
+  if (inputs.size() != 1 || shape.size() != 4 || (shape[1] != 3 && shape[1] != 0)) {
+    throw Error(path, "does not take one colour image (1 x 3 x height x width); export it so");
+  }
+  if (!wanted.empty()) return wanted;
+  constexpr std::int64_t kMaxSide = 4096;
+  if (shape[2] < 1 || shape[3] < 1 || shape[2] > kMaxSide || shape[3] > kMaxSide) {
+    throw Error(path, "leaves its input size open; set perception.input_width and input_height");
+  }
+  return {static_cast<int>(shape[3]), static_cast<int>(shape[2])};
+}
+
+}  // namespace
+
+DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path_(path) {
+  const std::vector<char> bytes = ReadFile(path);
+  input_ = FindInputSize(bytes, path, input);
+  const ScopedOpenCvSilence silence;
+  try {
+    net_ = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
+    net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+    output_names_ = net_.getUnconnectedOutLayersNames();
+  } catch (const cv::Exception& exception) {
+    throw Error(path, "OpenCV cannot load this network: " + Reason(exception));
+  }
+  if (output_names_.empty()) throw Error(path, "is a network without outputs; export it again");
+}
+
+std::vector<cv::Mat> DnnNetwork::Forward(const cv::Mat& image) {
+  OFM_CHECK(image.type() == CV_8UC3 && image.size() == input_);
+  std::vector<cv::Mat> outputs;
+  try {
+    net_.setInput(cv::dnn::blobFromImage(image, 1.0 / 255, input_, cv::Scalar(), true));
+    net_.forward(outputs, output_names_);
+  } catch (const cv::Exception& exception) {
+    throw Error(path_, fmt::format("OpenCV cannot run this network at {} x {} px: {}", input_.width,
+                                   input_.height, Reason(exception)));
+  }
+  return outputs;
+}
+
+}  // namespace ofm

@@ -1,0 +1,36 @@
+#include "ofm/perception/letterbox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "ofm/base/check.h"
+
+namespace ofm {
+
+Letterbox MakeLetterbox(cv::Size image, cv::Size input) {
+  OFM_CHECK(!image.empty() && !input.empty());
+  const double scale = std::min(static_cast<double>(input.width) / image.width,
+                                static_cast<double>(input.height) / image.height);
+  Letterbox letterbox{image, input, {}, {}};
+  letterbox.resized.width =
+      std::clamp(static_cast<int>(std::lround(image.width * scale)), 1, input.width);
+  letterbox.resized.height =
+      std::clamp(static_cast<int>(std::lround(image.height * scale)), 1, input.height);
+  letterbox.upper_left = {(input.width - letterbox.resized.width) / 2,
+                          (input.height - letterbox.resized.height) / 2};
+  return letterbox;
+}
+
+cv::Mat ApplyLetterbox(const Letterbox& letterbox, const cv::Mat& image) {
+  OFM_CHECK(image.type() == CV_8UC3 && image.size() == letterbox.image);
+  if (letterbox.image == letterbox.input) return image;
+  constexpr double kBorderGrey = 114;  // what the networks were trained with
+  cv::Mat input(letterbox.input, CV_8UC3, cv::Scalar::all(kBorderGrey));
+  cv::Mat inner = input(cv::Rect(letterbox.upper_left, letterbox.resized));
+  cv::resize(image, inner, letterbox.resized, 0, 0, cv::INTER_LINEAR);
+  return input;
+}
+
+}  // namespace ofm

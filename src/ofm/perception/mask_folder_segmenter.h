@@ -1,0 +1,36 @@
+// Instances from image files: ground truth, or the output of another program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ofm/perception/segmenter.h"
+
+namespace ofm {
+
+/// What a folder of masks holds.
+struct MaskFolder {
+  std::filesystem::path path;
+  std::vector<std::string> class_names;  ///< mask_class is added where it is not among them
+  std::string mask_class = "person";     ///< class of every instance
+};
+
+/// Reads FOLDER/NAME.png for the frame called NAME: one channel of 8 or 16 bits, the frame's size,
+/// 0 = static, k = instance k. All instances have the score 1 and are ordered by number.
+class MaskFolderSegmenter : public Segmenter {
+ public:
+  /// Throws Error where the folder does not exist.
+  explicit MaskFolderSegmenter(MaskFolder folder);
+
+  /// Throws Error that names the file where it is missing, damaged, of another type or size, or has
+  /// more than 255 instances (as a depth image taken for masks has).
+  Segmentation Segment(const RgbdFrame& frame) override;
+  const std::vector<std::string>& class_names() const override { return folder_.class_names; }
+
+ private:
+  MaskFolder folder_;
+  ClassId class_id_;
+};
+
+}  // namespace ofm
