@@ -1,0 +1,60 @@
+// How the simulated camera moves.
+#pragma once
+
+#include "ofm/base/options.h"
+#include "ofm/geometry/rigid_transform.h"
+#include "ofm/sim/scene.h"
+
+namespace ofm {
+
+/// The kinds of the TUM RGB-D benchmark's sequences, and a tour that closes a loop.
+enum class CameraPathKind {
+  kStatic,
+  kXyz,         ///< shifts along the three axes, the direction kept
+  kRpy,         ///< turns about the three axes, nearly in place
+  kHalfsphere,  ///< on a half sphere about the target, looking at it
+  kTour,        ///< a circle about the room's middle, looking outwards; ends where it began
+};
+EnumNameList<CameraPathKind> EnumNames(CameraPathKind);
+
+struct CameraPathOptions {
+  CameraPathKind kind = CameraPathKind::kXyz;
+  double amplitude_m = 0.2;   ///< of xyz, and the radius of a tour over 5
+  double amplitude_deg = 15;  ///< of rpy (roll, pitch and yaw) and half of halfsphere's azimuth
+  double period_s = 6;        ///< of the slowest part; one round of a tour takes 4 of them
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, "static, xyz, rpy, halfsphere or tour");
+    visit("amplitude_m", self.amplitude_m, "of the shifts; a tour's radius is 5 of them [m]",
+          Range{0, 10});
+    visit("amplitude_deg", self.amplitude_deg,
+          "of the turns; half of the azimuth on the half sphere [deg]", Range{0, 90});
+    visit("period_s", self.period_s, "of the slowest part; a quarter of a tour [s]",
+          Range{0.1, 1000});
+  }
+};
+
+/// world_from_camera of a camera at `eye` that looks at `target`, its x axis level. The view must
+/// not be vertical.
+RigidTransform LookAt(const Eigen::Vector3d& eye_in_world, const Eigen::Vector3d& target_in_world);
+
+/// A smooth path: its velocity is continuous.
+class CameraPath {
+ public:
+  CameraPath(const CameraPathOptions& options, const Viewpoint& viewpoint)
+      : options_(options), viewpoint_(viewpoint) {}
+
+  RigidTransform WorldFromCamera(double time_s) const;
+
+ private:
+  RigidTransform Xyz(double time_s) const;
+  RigidTransform Rpy(double time_s) const;
+  RigidTransform Halfsphere(double time_s) const;
+  RigidTransform Tour(double time_s) const;
+
+  CameraPathOptions options_;
+  Viewpoint viewpoint_;
+};
+
+}  // namespace ofm

@@ -1,0 +1,237 @@
+#include "ofm/sim/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace ofm {
+namespace {
+
+constexpr float kNearPlane_m = 0.05F;
+
+/// What does not depend on the shape.
+struct Look {
+  const Texture* texture;
+  Eigen::Vector3f light_in_camera;
+  std::uint8_t instance;
+};
+
+/// Bounds of the projection of the convex hull of `corners`, as far as it is before the near plane.
+ImageBounds BoundHull(std::span<const Eigen::Vector3d> corners) {
+  ImageBounds bounds;
+  const auto add = [&bounds](const Eigen::Vector3d& p) {
+    const float x = static_cast<float>(p.x() / p.z());
+    const float y = static_cast<float>(p.y() / p.z());
+    bounds.min_x = std::min(bounds.min_x, x);
+    bounds.max_x = std::max(bounds.max_x, x);
+    bounds.min_y = std::min(bounds.min_y, y);
+    bounds.max_y = std::max(bounds.max_y, y);
+  };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i].z() >= kNearPlane_m) add(corners[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const double a = corners[i].z() - kNearPlane_m;
+      const double b = corners[k].z() - kNearPlane_m;
+      if (a * b < 0) add((corners[k] * a - corners[i] * b) / (a - b));
+    }
+  }
+  constexpr float kMargin = 1e-4F;
+  bounds.min_x -= kMargin, bounds.min_y -= kMargin;
+  bounds.max_x += kMargin, bounds.max_y += kMargin;
+  return bounds;
+}
+
+Surface MakeSurface(Surface::Kind kind, const Look& look) {
+  Surface surface;
+  surface.kind = kind;
+  surface.texture = look.texture;
+  surface.light_in_camera = look.light_in_camera;
+  surface.instance = look.instance;
+  return surface;
+}
+
+/// A rectangle with its centre and two edge directions (unit vectors) in the camera's frame.
+struct Rectangle {
+  Eigen::Vector3d centre, axis_u, axis_v;
+  double half_u, half_v;
+};
+
+/// Appends `rectangle` unless it is seen edge-on or outside the view.
+void AddRectangle(const Rectangle& rectangle, const Look& look, double texture_shift_m,
+                  std::vector<Surface>& surfaces) {
+  constexpr double kEdgeOn_m = 1e-6;
+  const auto& [centre, axis_u, axis_v, half_u, half_v] = rectangle;
+  const Eigen::Vector3d normal = axis_u.cross(axis_v);
+  const double distance = normal.dot(centre);
+  if (std::abs(distance) < kEdgeOn_m) return;
+  Surface surface = MakeSurface(Surface::Kind::kPlane, look);
+  const std::array<Eigen::Vector3d, 4> corners = {
+      centre + half_u * axis_u + half_v * axis_v, centre + half_u * axis_u - half_v * axis_v,
+      centre - half_u * axis_u - half_v * axis_v, centre - half_u * axis_u + half_v * axis_v};
+  surface.bounds = BoundHull(corners);
+  if (!(surface.bounds.min_x <= surface.bounds.max_x)) return;
+  surface.inverse_depth = (normal / distance).cast<float>();
+  surface.axis_u = axis_u.cast<float>();
+  surface.axis_v = axis_v.cast<float>();
+  surface.offset_u = static_cast<float>(axis_u.dot(centre));
+  surface.offset_v = static_cast<float>(axis_v.dot(centre));
+  surface.half_u = static_cast<float>(half_u);
+  surface.half_v = static_cast<float>(half_v);
+  surface.normal_in_camera = (distance > 0 ? Eigen::Vector3d(-normal) : normal).cast<float>();
+  surface.texture_offset_m.setConstant(static_cast<float>(texture_shift_m));
+  surfaces.push_back(surface);
+}
+
+/// Appends the faces of a box that look towards the camera.
+void AddBox(const Part& part, const RigidTransform& camera_from_part, const Look& look,
+            std::vector<Surface>& surfaces) {
+  const Eigen::Matrix3d axes = camera_from_part.RotationMatrix();
+  const Eigen::Vector3d& half = part.half_extent_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      const Eigen::Vector3d normal = side * axes.col(axis);
+      const Eigen::Vector3d centre = camera_from_part.translation() + half[axis] * normal;
+      if (normal.dot(centre) >= 0) continue;
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      // Each face shows another piece of the texture.
+      const double shift_m = 0.37 * (2 * axis + (side + 1) / 2);
+      AddRectangle({centre, axes.col(u), axes.col(v), half[u], half[v]}, look, shift_m, surfaces);
+    }
+  }
+}
+
+void AddEllipsoid(const Part& part, const RigidTransform& camera_from_part, const Look& look,
+                  std::vector<Surface>& surfaces) {
+  const Eigen::Matrix3d axes = camera_from_part.RotationMatrix();
+  const Eigen::Vector3d& centre = camera_from_part.translation();
+  const Eigen::Vector3d& half = part.half_extent_m;
+  Surface surface = MakeSurface(Surface::Kind::kEllipsoid, look);
+  std::array<Eigen::Vector3d, 8> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector3d sign((k & 1) ? 1 : -1, (k & 2) ? 1 : -1, (k & 4) ? 1 : -1);
+    corners[k] = centre + axes * half.cwiseProduct(sign);
+  }
+  surface.bounds = BoundHull(corners);
+  if (!(surface.bounds.min_x <= surface.bounds.max_x)) return;
+  const Eigen::Matrix3d sphere_from_camera = half.cwiseInverse().asDiagonal() * axes.transpose();
+  surface.sphere_from_camera = sphere_from_camera.cast<float>();
+  surface.camera_in_sphere = (-(sphere_from_camera * centre)).cast<float>();
+  surface.radii_m = half.cast<float>();
+  surfaces.push_back(surface);
+}
+
+void IntersectPlane(const Surface& s, int index, const RaySpan& span) {
+  const float wx = s.inverse_depth.x(), wy = s.inverse_depth.y(), wz = s.inverse_depth.z();
+  const float ux = s.axis_u.x(), uy = s.axis_u.y(), uz = s.axis_u.z();
+  const float vx = s.axis_v.x(), vy = s.axis_v.y(), vz = s.axis_v.z();
+  const float offset_u = s.offset_u, offset_v = s.offset_v;
+  const float half_u = s.half_u, half_v = s.half_v;
+  const float* __restrict x = span.x;
+  const float* __restrict y = span.y;
+  float* __restrict depth = span.depth_m;
+  int* __restrict surface = span.surface;
+  for (int i = 0; i < span.count; ++i) {
+    const float z = 1 / (wx * x[i] + wy * y[i] + wz);
+    const float u = z * (ux * x[i] + uy * y[i] + uz) - offset_u;
+    const float v = z * (vx * x[i] + vy * y[i] + vz) - offset_v;
+    // One condition without branches, so that the compiler makes vector code of it.
+    const bool hit =
+        (std::abs(u) <= half_u) & (std::abs(v) <= half_v) & (z > kNearPlane_m) & (z < depth[i]);
+    depth[i] = hit ? z : depth[i];
+    surface[i] = hit ? index : surface[i];
+  }
+}
+
+void IntersectEllipsoid(const Surface& s, int index, const RaySpan& span) {
+  const Eigen::Matrix3f& m = s.sphere_from_camera;
+  const Eigen::Vector3f& o = s.camera_in_sphere;
+  const float c = o.squaredNorm() - 1;
+  for (int i = 0; i < span.count; ++i) {
+    const float dx = m(0, 0) * span.x[i] + m(0, 1) * span.y[i] + m(0, 2);
+    const float dy = m(1, 0) * span.x[i] + m(1, 1) * span.y[i] + m(1, 2);
+    const float dz = m(2, 0) * span.x[i] + m(2, 1) * span.y[i] + m(2, 2);
+    const float a = dx * dx + dy * dy + dz * dz;
+    const float b = o.x() * dx + o.y() * dy + o.z() * dz;
+    const float discriminant = b * b - a * c;
+    const float z = (-b - std::sqrt(std::max(discriminant, 0.0F))) / a;
+    const bool hit = (discriminant > 0) & (z > kNearPlane_m) & (z < span.depth_m[i]);
+    span.depth_m[i] = hit ? z : span.depth_m[i];
+    span.surface[i] = hit ? index : span.surface[i];
+  }
+}
+
+/// A point of a surface: its place on the texture and its normal.
+struct SurfacePoint {
+  float u_m, v_m;
+  Eigen::Vector3f normal_in_camera;
+};
+
+SurfacePoint Locate(const Surface& s, const Eigen::Vector3f& point_in_camera) {
+  if (s.kind == Surface::Kind::kPlane) {
+    return {s.axis_u.dot(point_in_camera) - s.offset_u, s.axis_v.dot(point_in_camera) - s.offset_v,
+            s.normal_in_camera};
+  }
+  const Eigen::Vector3f on_sphere = s.sphere_from_camera * point_in_camera + s.camera_in_sphere;
+  const float longitude = std::atan2(on_sphere.y(), on_sphere.x());
+  return {longitude * 0.5F * (s.radii_m.x() + s.radii_m.y()), on_sphere.z() * s.radii_m.z(),
+          (s.sphere_from_camera.transpose() * on_sphere).normalized()};
+}
+
+}  // namespace
+
+std::vector<Surface> MakeSurfaces(const Scene& scene, double time_s,
+                                  const RigidTransform& camera_from_world) {
+  std::vector<Surface> surfaces;
+  const Eigen::Vector3f light =
+      (camera_from_world.rotation() * scene.light_in_world()).cast<float>();
+  for (const Body& body : scene.bodies()) {
+    for (const Part& part : body.parts) {
+      const RigidTransform camera_from_part = camera_from_world * WorldFromPart(body, part, time_s);
+      const Look look{part.texture.get(), light, static_cast<std::uint8_t>(body.id.value)};
+      switch (part.shape) {
+        case Shape::kRectangle: {
+          const Eigen::Matrix3d axes = camera_from_part.RotationMatrix();
+          AddRectangle({camera_from_part.translation(), axes.col(0), axes.col(1),
+                        part.half_extent_m.x(), part.half_extent_m.y()},
+                       look, 0, surfaces);
+          break;
+        }
+        case Shape::kBox:
+          AddBox(part, camera_from_part, look, surfaces);
+          break;
+        case Shape::kEllipsoid:
+          AddEllipsoid(part, camera_from_part, look, surfaces);
+          break;
+      }
+    }
+  }
+  return surfaces;
+}
+
+void IntersectSpan(const Surface& surface, int index, const RaySpan& span) {
+  if (surface.kind == Surface::Kind::kPlane) {
+    IntersectPlane(surface, index, span);
+  } else {
+    IntersectEllipsoid(surface, index, span);
+  }
+}
+
+Eigen::Array3f ShadeSurface(const Surface& surface, const Eigen::Vector2f& ray_xy, float depth_m,
+                            float pixel_angle) {
+  constexpr float kAmbient = 0.55F;
+  constexpr float kDiffuse = 0.45F;
+  constexpr float kMinCosine = 0.2F;  // beyond it the footprint grows no further
+  const Eigen::Vector3f ray(ray_xy.x(), ray_xy.y(), 1);
+  const SurfacePoint point = Locate(surface, ray * depth_m);
+  const float cosine = std::abs(point.normal_in_camera.dot(ray)) / ray.norm();
+  const float footprint_m = pixel_angle * depth_m / std::max(cosine, kMinCosine);
+  const Eigen::Array3f color =
+      surface.texture->Sample(point.u_m + surface.texture_offset_m.x(),
+                              point.v_m + surface.texture_offset_m.y(), footprint_m);
+  const float diffuse = std::max(0.0F, point.normal_in_camera.dot(surface.light_in_camera));
+  return color * (kAmbient + kDiffuse * diffuse);
+}
+
+}  // namespace ofm
