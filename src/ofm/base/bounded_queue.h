@@ -33,7 +33,7 @@ class BoundedQueue {
   bool Push(T value, std::stop_token stop = {}) OFM_EXCLUDES(mutex_)
       OFM_THREAD_ANNOTATION(no_thread_safety_analysis) {
     std::unique_lock lock(mutex_);
-    MakeRoom();
+    if (!closed_) MakeRoom();
     const bool room = changed_.wait(lock, stop, [&] { return closed_ || Fits(); });
     if (!room || closed_) return false;
     values_.push_back(std::move(value));

@@ -7,10 +7,47 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "ofm/base/error.h"
 
 namespace ofm {
+namespace {
+
+std::string PlainText(const YAML::Node& node) {
+  if (!node.IsScalar()) throw Error("must hold plain values");
+  return node.Scalar();
+}
+
+// Whether YAML reads `text` back as it stands, also within a list.
+bool IsPlain(std::string_view text) {
+  const auto is_word = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
+           c == '/' || c == '.';
+  };
+  const auto is_inner = [&](char c) { return is_word(c) || c == ' ' || c == '-' || c == '+'; };
+  return !text.empty() && is_word(text.front()) && text.back() != ' ' &&
+         std::all_of(text.begin(), text.end(), is_inner) && text != "null" && text != "Null" &&
+         text != "NULL";
+}
+
+std::string QuoteWhereNeeded(std::string_view text) {
+  if (IsPlain(text)) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
 namespace options_internal {
 
 void ParseBool(std::string_view text, bool& value) {
@@ -23,14 +60,11 @@ void ParseBool(std::string_view text, bool& value) {
   }
 }
 
-double ParseNumber(std::string_view text, Range range, bool integer) {
+double ParseReal(std::string_view text, Range range) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
     throw Error(fmt::format("'{}' is not a finite number", text));
-  }
-  if (integer && value != std::floor(value)) {
-    throw Error(fmt::format("'{}' is not a whole number", text));
   }
   if (value < range.min || value > range.max) {
     throw Error(fmt::format("{} is outside [{}, {}]", text, range.min, range.max));
@@ -38,21 +72,35 @@ double ParseNumber(std::string_view text, Range range, bool integer) {
   return value;
 }
 
+double ParseWhole(std::string_view text, Range range, Range type_limits) {
+  constexpr double kLargestExact = 9007199254740991;  // 2^53 - 1
+  const Range valid{std::max({range.min, type_limits.min, -kLargestExact}),
+                    std::min({range.max, type_limits.max, kLargestExact})};
+  const double value = ParseReal(text, valid);
+  if (value != std::floor(value)) throw Error(fmt::format("'{}' is not a whole number", text));
+  return value;
+}
+
 std::vector<std::string> ParseList(std::string_view text) {
-  if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+  const bool bracketed = text.starts_with('[');
   std::vector<std::string> items;
-  while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    std::string_view item = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
-    const std::size_t first = item.find_first_not_of(" \t");
-    if (first == std::string_view::npos) continue;
-    items.emplace_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
+  try {
+    const YAML::Node list = YAML::Load(bracketed ? std::string(text) : fmt::format("[{}]", text));
+    for (const YAML::Node& item : list) items.push_back(PlainText(item));
+  } catch (const YAML::Exception&) {
+    throw Error(fmt::format("'{}' is not a list; write it as [a, b]", text));
   }
   return items;
 }
 
+std::string PrintNumber(float value) { return fmt::format("{}", value); }
 std::string PrintNumber(double value) { return fmt::format("{}", value); }
+
+std::string PrintList(std::span<const std::string> items) {
+  std::vector<std::string> quoted;
+  for (const std::string& item : items) quoted.push_back(QuoteWhereNeeded(item));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
 
 std::string JoinNames(std::span<const std::string_view> names, std::string_view separator) {
   return fmt::format("{}", fmt::join(names, separator));
@@ -95,50 +143,67 @@ const OptionField& FindField(std::string_view path, const std::vector<OptionFiel
   throw Error(fmt::format("unknown key '{}'{}", path, hint));
 }
 
-std::string ScalarText(const YAML::Node& node) {
-  if (!node.IsSequence()) return node.IsNull() ? "" : node.as<std::string>();
+// A value as OptionField::parse reads it.
+std::string ValueText(const YAML::Node& node, const OptionField& field) {
+  if (node.IsNull()) return "";
+  if (!node.IsSequence()) return PlainText(node);
+  if (field.type != "list") throw Error("must be one value, not a list");
   std::vector<std::string> items;
-  for (const YAML::Node& item : node) items.push_back(item.as<std::string>());
-  return fmt::format("[{}]", fmt::join(items, ", "));
+  for (const YAML::Node& item : node) items.push_back(PlainText(item));
+  return options_internal::PrintList(items);
 }
 
-void LoadNode(const YAML::Node& node, const std::string& prefix, const std::filesystem::path& path,
-              const std::vector<OptionField>& fields) {
-  for (const auto& entry : node) {
-    const std::string key = prefix + entry.first.as<std::string>();
-    if (entry.second.IsMap()) {
-      LoadNode(entry.second, key + ".", path, fields);
-      continue;
-    }
-    try {
-      FindField(key, fields).parse(ScalarText(entry.second));
-    } catch (const std::runtime_error& error) {
-      const std::string what = error.what();
-      const std::string message =
-          what.find(key) == std::string::npos ? fmt::format("{}: {}", key, what) : what;
-      throw Error(path, entry.first.Mark().line + 1, message);
-    }
+void LoadValue(const std::string& key, const YAML::Node& value,
+               const std::vector<OptionField>& fields) {
+  const OptionField& field = FindField(key, fields);
+  try {
+    field.parse(ValueText(value, field));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", key, error.what()));
   }
 }
 
-bool NeedsQuotes(const std::string& value) {
-  return value.empty() || value.find_first_of(":#'\"{}&*!|>%@`,\\ ") != std::string::npos;
+void LoadGroup(const YAML::Node& group, const std::string& prefix,
+               const std::filesystem::path& path, const std::vector<OptionField>& fields) {
+  std::set<std::string> seen;
+  for (const auto& entry : group) {
+    const YAML::Node &name = entry.first, &value = entry.second;
+    const int line = name.Mark().line + 1;
+    if (!name.IsScalar()) throw Error(path, line, "a key must be plain text");
+    const std::string key = prefix + name.Scalar();
+    if (!seen.insert(key).second) throw Error(path, line, fmt::format("{}: is given twice", key));
+    const bool known = std::any_of(fields.begin(), fields.end(), [&](const OptionField& field) {
+      return field.path.starts_with(key + ".");
+    });
+    if (value.IsMap() && (known || value.size() > 0)) {
+      LoadGroup(value, key + ".", path, fields);
+    } else if (!known || !value.IsNull()) {  // a known group may be empty
+      try {
+        LoadValue(key, value, fields);
+      } catch (const Error& error) {
+        throw Error(path, line, error.what());
+      }
+    }
+  }
 }
 
 }  // namespace
 
 void LoadOptionsYaml(const std::filesystem::path& path, const std::vector<OptionField>& fields) {
+  if (std::filesystem::is_directory(path)) {
+    throw Error(path, "is a directory; name a readable YAML file");
+  }
   YAML::Node root;
   try {
     root = YAML::LoadFile(path.string());
   } catch (const YAML::BadFile&) {
     throw Error(path, "cannot be opened; name a readable YAML file");
-  } catch (const YAML::ParserException& error) {
+  } catch (const YAML::Exception& error) {
     throw Error(path, error.mark.line + 1, fmt::format("is not valid YAML: {}", error.msg));
   }
   if (root.IsNull()) return;
   if (!root.IsMap()) throw Error(path, 1, "must hold 'key: value' entries");
-  LoadNode(root, "", path, fields);
+  LoadGroup(root, "", path, fields);
 }
 
 void ApplyOptionAssignment(std::string_view assignment, const std::vector<OptionField>& fields) {
@@ -170,12 +235,8 @@ std::string PrintOptionsYaml(const std::vector<OptionField>& fields) {
       text += fmt::format("{:{}}{}:\n", "", 2 * i, groups[i]);
     }
     open = groups;
-    std::string value = field.print();
-    if (field.type == "text" && NeedsQuotes(value)) {
-      std::string quoted = "'";
-      for (const char c : value) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-      value = quoted + "'";
-    }
+    const std::string value =
+        field.type == "text" ? QuoteWhereNeeded(field.print()) : field.print();
     text += fmt::format("{:{}}{}: {}  # {} ({})\n", "", 2 * groups.size(), rest, value, field.doc,
                         field.type);
   }

@@ -60,9 +60,13 @@ concept HasVisit = requires(T& t, AnyVisitor v) {
 };
 
 void ParseBool(std::string_view text, bool& value);
-double ParseNumber(std::string_view text, Range range, bool integer);
+double ParseReal(std::string_view text, Range range);
+/// Whole numbers are kept to what a double, and so every reader of YAML and JSON, holds exactly.
+double ParseWhole(std::string_view text, Range range, Range type_limits);
 std::vector<std::string> ParseList(std::string_view text);
+std::string PrintNumber(float value);
 std::string PrintNumber(double value);
+std::string PrintList(std::span<const std::string> items);
 [[noreturn]] void ThrowBadEnum(std::string_view text, std::string_view type);
 std::string JoinNames(std::span<const std::string_view> names, std::string_view separator);
 
@@ -90,18 +94,25 @@ OptionField MakeField(std::string path, T& value, std::string doc, Range range) 
       return std::string();
     };
   } else if constexpr (std::is_arithmetic_v<T>) {
-    field.type = std::is_integral_v<T> ? "int" : "real";
-    field.parse = [&value, range](std::string_view text) {
-      value = static_cast<T>(ParseNumber(text, range, std::is_integral_v<T>));
-    };
-    field.print = [&value] { return PrintNumber(static_cast<double>(value)); };
+    using Limits = std::numeric_limits<T>;
+    if constexpr (std::is_integral_v<T>) {
+      field.type = "int";
+      field.parse = [&value, range](std::string_view text) {
+        const Range limits{static_cast<double>(Limits::min()), static_cast<double>(Limits::max())};
+        value = static_cast<T>(ParseWhole(text, range, limits));
+      };
+      field.print = [&value] { return std::to_string(value); };
+    } else {
+      field.type = "real";
+      field.parse = [&value, range](std::string_view text) {
+        value = static_cast<T>(ParseReal(text, range));
+      };
+      field.print = [&value] { return PrintNumber(value); };
+    }
   } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
     field.type = "list";
     field.parse = [&value](std::string_view text) { value = ParseList(text); };
-    field.print = [&value] {
-      std::vector<std::string_view> views(value.begin(), value.end());
-      return "[" + JoinNames(views, ", ") + "]";
-    };
+    field.print = [&value] { return PrintList(value); };
   } else {
     static_assert(std::is_same_v<T, std::string>, "an option of a type that is not supported");
     field.type = "text";

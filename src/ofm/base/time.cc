@@ -36,11 +36,13 @@ std::optional<std::int64_t> ParseSeconds(std::string_view text) {
 
 std::string FormatSeconds(std::int64_t stamp_ns, int decimals) {
   OFM_CHECK(decimals >= 0 && decimals <= 9);
-  std::int64_t unit = 1;
+  std::uint64_t unit = 1;
   for (int i = decimals; i < 9; ++i) unit *= 10;
-  const std::int64_t magnitude = stamp_ns < 0 ? -stamp_ns : stamp_ns;
-  const std::int64_t rounded = (magnitude + unit / 2) / unit;
-  const std::int64_t per_second = kNanosecondsPerSecond / unit;
+  // Unsigned: the magnitude of the least stamp, and of the largest when rounded up, fit there only.
+  const auto bits = static_cast<std::uint64_t>(stamp_ns);
+  const std::uint64_t magnitude = stamp_ns < 0 ? -bits : bits;
+  const std::uint64_t rounded = (magnitude + unit / 2) / unit;
+  const std::uint64_t per_second = kNanosecondsPerSecond / unit;
   const std::string sign = stamp_ns < 0 && rounded != 0 ? "-" : "";
   if (decimals == 0) return fmt::format("{}{}", sign, rounded);
   return fmt::format("{}{}.{:0{}}", sign, rounded / per_second, rounded % per_second, decimals);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "ofm/base/check.h"
+
 namespace ofm {
 namespace {
 
@@ -42,6 +44,7 @@ void StageTimes::Add(const std::string& stage, double wall_ms, double cpu_ms) {
 }
 
 void StageTimes::Merge(const StageTimes& other) {
+  OFM_CHECK(&other != this);
   for (const auto& [stage, durations] : other.stages_) {
     Durations& mine = stages_[stage];
     mine.wall_ms.insert(mine.wall_ms.end(), durations.wall_ms.begin(), durations.wall_ms.end());

@@ -32,6 +32,7 @@ class StageTimes {
   };
 
   void Add(const std::string& stage, double wall_ms, double cpu_ms);
+  /// Appends the durations of `other`, another object.
   void Merge(const StageTimes& other);
   const std::map<std::string, Durations>& stages() const { return stages_; }
 

@@ -5,17 +5,28 @@
 namespace ofm {
 namespace {
 
-constexpr double kSmallAngle = 1e-6;
+// Under it the first term of each series below is exact to a double's last digit.
+constexpr double kSmallAngle = 1e-8;
+
+/// sin(x / 2) / x, for x >= 0.
+double HalfSinc(double x) { return x < kSmallAngle ? 0.5 : std::sin(0.5 * x) / x; }
+
+/// (x - sin x) / x^3, for x >= 0.
+double CubicRemainder(double x) {
+  constexpr double kSeriesLimit = 0.1;  // where the difference loses as much as the series
+  const double squared = x * x;
+  if (x > kSeriesLimit) return (x - std::sin(x)) / (squared * x);
+  return 1.0 / 6 - squared * (1.0 / 120 - squared * (1.0 / 5040 - squared / 362880));
+}
 
 /// Left Jacobian of SO(3): translation = V(omega) rho (Barfoot, State Estimation for
 /// Robotics, 7.85).
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& omega) {
   const double angle = omega.norm();
   const Eigen::Matrix3d skew = SkewSymmetric(omega);
-  if (angle < kSmallAngle) return Eigen::Matrix3d::Identity() + 0.5 * skew;
-  const double squared = angle * angle;
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / squared * skew +
-         (angle - std::sin(angle)) / (squared * angle) * skew * skew;
+  const double half_sinc = HalfSinc(angle);  // 1 - cos x = 2 sin^2(x / 2), without the cancellation
+  return Eigen::Matrix3d::Identity() + 2 * half_sinc * half_sinc * skew +
+         CubicRemainder(angle) * skew * skew;
 }
 
 }  // namespace
@@ -28,11 +39,8 @@ Eigen::Matrix3d SkewSymmetric(const Eigen::Vector3d& v) {
 
 Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& omega) {
   const double angle = omega.norm();
-  const double half = 0.5 * angle;
-  // sin(x/2)/x, by its series near zero.
-  const double scale = angle < kSmallAngle ? 0.5 - angle * angle / 48 : std::sin(half) / angle;
-  const Eigen::Vector3d imaginary = scale * omega;
-  return Eigen::Quaterniond(std::cos(half), imaginary.x(), imaginary.y(), imaginary.z());
+  const Eigen::Vector3d imaginary = HalfSinc(angle) * omega;
+  return Eigen::Quaterniond(std::cos(0.5 * angle), imaginary.x(), imaginary.y(), imaginary.z());
 }
 
 Eigen::Vector3d LogSo3(const Eigen::Quaterniond& rotation) {
