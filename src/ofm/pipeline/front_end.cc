@@ -7,10 +7,9 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
     : camera_(camera),
       segmenter_(std::move(segmenter)),
       flow_(options.perception.flow),
-      dynamics_(camera, options.dynamics),
-      extractor_(options.features) {
-  OFM_CHECK(segmenter_ != nullptr);
-}
+      mode_(options.dynamics.mode),
+      dynamics_(options.dynamics, camera, segmenter_->class_names()),
+      extractor_(options.features) {}
 
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   PreparedFrame prepared;
@@ -19,7 +18,7 @@ PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
     ScopedStageTimer timer(times, "segmentation");
     prepared.segmentation = segmenter_->Segment(prepared.frame);
   }
-  if (dynamics_.options().mode != DynamicsMode::kOff) {
+  if (mode_ != DynamicsMode::kOff) {
     FlowResult flow;
     {
       ScopedStageTimer timer(times, "optical_flow");

@@ -34,6 +34,7 @@ class FrontEnd {
   PinholeCamera camera_;
   std::unique_ptr<Segmenter> segmenter_;
   OpticalFlow flow_;
+  DynamicsMode mode_;
   DynamicsStage dynamics_;
   OrbExtractor extractor_;
   std::vector<Eigen::Vector2f> last_points_;  // key points of the last frame [px]
