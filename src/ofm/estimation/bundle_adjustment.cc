@@ -19,8 +19,9 @@ namespace {
 /// Over this number of free poses the reduced camera system is factorised as a sparse one.
 constexpr int kMaxDensePoses = 60;
 
-/// Stages end where an iteration lowers the cost by less than this share.
-constexpr double kRobustTolerance = 1e-3, kFinalTolerance = 1e-5;
+/// A stage ends where an iteration lowers the cost by less than this for each observation. Not a
+/// share of the cost, most of which outliers make.
+constexpr double kRobustTolerance = 1e-2, kFinalTolerance = 1e-5;
 
 enum class Stage { kRobust, kFinal };
 
@@ -37,17 +38,23 @@ void CheckInput(const BundleProblem& problem, const BundleOptions& options) {
   }
 }
 
-class StopCallback final : public ceres::IterationCallback {
+/// Ends the solver where a stop is requested or an iteration gained too little.
+class EndCallback final : public ceres::IterationCallback {
  public:
-  explicit StopCallback(const std::stop_token& stop) : stop_(stop) {}
+  EndCallback(const std::stop_token& stop, double min_decrease)
+      : stop_(stop), min_decrease_(min_decrease) {}
 
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    const bool gained_little = iteration.iteration > 0 && iteration.step_is_successful &&
+                               iteration.cost_change < min_decrease_;
     // Not SOLVER_ABORT: that would throw the best state away.
-    return stop_.stop_requested() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    return stop_.stop_requested() || gained_little ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                   : ceres::SOLVER_CONTINUE;
   }
 
  private:
   const std::stop_token& stop_;
+  double min_decrease_;
 };
 
 /// The state that Ceres works on. Ceres orders blocks by their address, so that contiguous arrays
@@ -121,8 +128,8 @@ ceres::Solver::Options SolverOptions(const BundleProblem& problem, const BundleO
       free_poses > kMaxDensePoses ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
   result.max_num_iterations =
       stage == Stage::kRobust ? options.robust_iterations : options.final_iterations;
-  result.function_tolerance = stage == Stage::kRobust ? kRobustTolerance : kFinalTolerance;
   result.num_threads = options.threads;
+  result.jacobi_scaling = false;  // Marquardt scales already
   result.logging_type = ceres::SILENT;
   return result;
 }
@@ -131,16 +138,17 @@ class StageSolver {
  public:
   StageSolver(const PinholeCamera& camera, const BundleProblem& problem, Stage stage,
               const std::vector<char>& active, BundleState& state)
-      : problem_(problem), state_(state), ceres_(ProblemOptions()) {
+      : problem_(problem), stage_(stage), state_(state), ceres_(ProblemOptions()) {
     for (std::size_t i = 0; i < active.size(); ++i) {
-      if (active[i]) Add(camera, problem.observations[i], stage);
+      if (active[i]) Add(camera, problem.observations[i]);
     }
   }
 
   /// False where the solver failed; the state is then as before.
   bool Solve(ceres::Solver::Options options, const std::stop_token& stop) {
     options.linear_solver_ordering = Ordering();
-    StopCallback callback(stop);
+    const double tolerance = stage_ == Stage::kRobust ? kRobustTolerance : kFinalTolerance;
+    EndCallback callback(stop, tolerance * static_cast<double>(costs_.size()));
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
@@ -157,10 +165,10 @@ class StageSolver {
     return options;
   }
 
-  void Add(const PinholeCamera& camera, const BundleProblem::Observation& o, Stage stage) {
+  void Add(const PinholeCamera& camera, const BundleProblem::Observation& o) {
     costs_.emplace_back(camera, o.seen);
     ceres::LossFunction* loss = nullptr;
-    if (stage == Stage::kRobust) loss = &losses_.emplace_back(o.seen);
+    if (stage_ == Stage::kRobust) loss = &losses_.emplace_back(o.seen);
     BundleState::Pose& pose = state_.poses[o.pose];
     double* rotation = pose.rotation.coeffs().data();
     double* translation = pose.translation.data();
@@ -191,6 +199,7 @@ class StageSolver {
   }
 
   const BundleProblem& problem_;
+  const Stage stage_;
   BundleState& state_;
   LeftRotationManifold manifold_;
   std::deque<ReprojectionCost> costs_;
