@@ -39,7 +39,9 @@ std::size_t CountFrames(const std::string& sequence, const Trajectory& groundtru
   for (const TumEntry& entry : ReadTumIndex(sequence).entries) {
     stamps.push_back(entry.color.stamp_ns);
   }
-  return CountInSpan(stamps, groundtruth);
+  const std::size_t frames = CountInSpan(stamps, groundtruth);
+  if (frames == 0) throw Error(sequence, "has no frame within the time of the ground truth");
+  return frames;
 }
 
 void Evaluate(const EvaluateArguments& arguments) {

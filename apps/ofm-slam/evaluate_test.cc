@@ -66,6 +66,14 @@ TEST_F(EvaluateCommand, CountsTheCoverage) {
               EndsWith("coverage: 40 of 79 frames (50.6 %)\n"));
 }
 
+TEST_F(EvaluateCommand, ASequenceOfAnotherTimeIsAnError) {
+  folder_.Write("sequence/associations.txt", "5 rgb/a.png 5 depth/a.png\n");
+  const ProgramResult result = Evaluate("--sequence '" + Path("sequence") + "'");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "ofm-slam: error: " + Path("sequence") +
+                            ": has no frame within the time of the ground truth\n");
+}
+
 TEST_F(EvaluateCommand, WritesJson) {
   const ProgramResult result = Evaluate("--json '" + Path("errors.json") + "' --frames 40");
   EXPECT_EQ(result.exit_code, 0) << result.err;

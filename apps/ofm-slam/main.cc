@@ -29,10 +29,11 @@ int RunCommandLine(int argc, char** argv) {
   CLI::App app(kDescription, "ofm-slam");
   app.footer(kExamples);
   app.set_version_flag("--version", "ofm-slam " OFM_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none is reported below: CLI11 would hide a misspelt one
   ofm::AddEvaluateCommand(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
   } catch (const CLI::Success& help_or_version) {
     app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {

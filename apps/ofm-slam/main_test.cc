@@ -41,6 +41,11 @@ TEST(Program, UsageErrorsAreOneLine) {
   }
 }
 
+TEST(Program, NamesWhatItDoesNotKnow) {
+  EXPECT_THAT(RunProgram("fly").err, HasSubstr("fly"));
+  EXPECT_THAT(RunProgram("").err, HasSubstr("A subcommand is required"));
+}
+
 TEST(Program, ErrorsAreOneLineThatNamesTheFile) {
   const ProgramResult result = RunProgram("evaluate /no/estimate.txt /no/groundtruth.txt");
   EXPECT_EQ(result.exit_code, 1);
