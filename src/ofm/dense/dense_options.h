@@ -1,0 +1,77 @@
+// Settings of the semantic map.
+#pragma once
+
+#include "ofm/base/options.h"
+
+namespace ofm {
+
+/// Which pixels of a key frame are mapped, and how finely.
+struct KeyframeCloudOptions {
+  double edge_sigmas = 8;             ///< depth step that is an edge [depth sigmas]
+  int min_measured_pixels = 6;        ///< of the 3 x 3 around a pixel, itself included
+  int mask_dilation_px = 4;           ///< dropped around what moves, whatever its depth
+  int mask_margin_px = 16;            ///< dropped around what moves where the depth is alike
+  double mask_margin_depth_m = 0.2;   ///< how alike
+  double unlabelled_confidence = .5;  ///< weight of "no label" against labels, 0 to 1
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("edge_sigmas", self.edge_sigmas, "depth step that is an edge [depth sigmas]",
+          Range{1, 1000});
+    visit("min_measured_pixels", self.min_measured_pixels,
+          "pixels with depth that a mapped pixel's 3 x 3 must hold", Range{1, 9});
+    visit("mask_dilation_px", self.mask_dilation_px,
+          "pixels dropped around what moves, whatever their depth", Range{0, 100});
+    visit("mask_margin_px", self.mask_margin_px,
+          "pixels dropped around what moves where their depth is alike", Range{0, 100});
+    visit("mask_margin_depth_m", self.mask_margin_depth_m,
+          "depth difference that counts as alike [m]", Range{0, 10});
+    visit("unlabelled_confidence", self.unlabelled_confidence,
+          "weight of 'no label' against labels", Range{0, 1});
+  }
+};
+
+/// The inverse sensor model; the defaults are OctoMap's (Hornung et al., Autonomous Robots 2013).
+struct OccupancyOptions {
+  double probability_hit = .7;     ///< of a voxel that a ray ends in
+  double probability_miss = .4;    ///< of a voxel that a ray crosses
+  double probability_min = .1192;  ///< lower clamp
+  double probability_max = .971;   ///< upper clamp
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("probability_hit", self.probability_hit, "occupancy of a voxel that a ray ends in",
+          Range{.501, .999});
+    visit("probability_miss", self.probability_miss, "occupancy of a voxel that a ray crosses",
+          Range{.001, .499});
+    visit("probability_min", self.probability_min, "lowest occupancy", Range{.0001, .499});
+    visit("probability_max", self.probability_max, "highest occupancy", Range{.501, .9999});
+  }
+};
+
+struct DenseOptions {
+  double resolution_m = .05;       ///< side of an octree voxel
+  double range_m = 5;              ///< farther points only free the space before them
+  int cloud_points_per_voxel = 2;  ///< cloud points along a voxel's side
+  KeyframeCloudOptions cloud;
+  OccupancyOptions occupancy;
+
+  /// Side of a cloud voxel [m].
+  double CloudResolution() const { return resolution_m / cloud_points_per_voxel; }
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("resolution_m", self.resolution_m, "side of an octree voxel [m]", Range{.005, 1});
+    visit("range_m", self.range_m, "farther points only free the space before them [m]",
+          Range{.1, 50});
+    visit("cloud_points_per_voxel", self.cloud_points_per_voxel,
+          "points of the cloud along an octree voxel's side", Range{1, 8});
+    visit("cloud", self.cloud);
+    visit("occupancy", self.occupancy);
+  }
+};
+
+/// Throws Error that names the field where a value is outside its range.
+void CheckOptions(const DenseOptions& options);
+
+}  // namespace ofm

@@ -1,0 +1,37 @@
+// A key frame as a small labelled cloud.
+#pragma once
+
+#include <vector>
+
+#include "ofm/camera/pinhole_camera.h"
+#include "ofm/dense/dense_options.h"
+#include "ofm/dense/labelled_frame.h"
+#include "ofm/dense/labelled_point.h"
+
+namespace ofm {
+
+/// What a key frame gives to the map, in its camera's frame: it stays good whatever becomes of the
+/// key frame's pose.
+struct KeyframeCloud {
+  std::vector<LabelledPoint> points_in_camera;
+  /// Ends, at the range limit, of the rays to points beyond it: they free and fill nothing [m].
+  std::vector<Eigen::Vector3f> free_ends_in_camera;
+};
+
+/// Makes clouds for one camera. The range is the distance from the camera, not z.
+class KeyframeCloudMaker {
+ public:
+  /// Throws Error where an option is out of its range.
+  KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options);
+
+  /// Back-projects the usable pixels (see usable_pixels.h), lens distortion undone, and keeps one
+  /// point per voxel of CloudResolution().
+  KeyframeCloud Make(const LabelledFrame& frame) const;
+
+ private:
+  PinholeCamera camera_;
+  DenseOptions options_;
+  std::vector<Eigen::Vector2f> rays_;  // (x, y) of the point at z = 1 m behind each pixel
+};
+
+}  // namespace ofm

@@ -1,0 +1,24 @@
+// What the semantic map is made of: a key frame's images with a label per pixel.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "ofm/base/ids.h"
+
+namespace ofm {
+
+/// The class id of what no instance covers.
+inline constexpr std::uint8_t kNoLabel = 255;
+
+/// Images of one key frame, all of the camera's size. The images are shared, not copied.
+struct LabelledFrame {
+  KeyframeId id;
+  cv::Mat color;         ///< CV_8UC3, BGR
+  cv::Mat depth_m;       ///< CV_32FC1 [m], 0 = not measured
+  cv::Mat class_ids;     ///< CV_8UC1, ClassId of each pixel, kNoLabel = none; may be empty
+  cv::Mat confidence;    ///< CV_8UC1, of the label, 255 = sure; empty where class_ids is
+  cv::Mat dynamic_mask;  ///< CV_8UC1, 255 = moves; may be empty
+};
+
+}  // namespace ofm

@@ -1,0 +1,24 @@
+// A point of a labelled, coloured cloud.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "ofm/dense/labelled_frame.h"
+
+namespace ofm {
+
+struct Rgb {
+  std::uint8_t r = 0, g = 0, b = 0;
+  friend constexpr bool operator==(Rgb, Rgb) = default;
+};
+
+/// The frame of `position` is said by whatever holds the point.
+struct LabelledPoint {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]
+  Rgb color;
+  std::uint8_t class_id = kNoLabel;
+  std::uint8_t confidence = 0;  ///< of class_id, 255 = sure
+};
+
+}  // namespace ofm

@@ -1,0 +1,104 @@
+#include "ofm/dense/octree_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ofm/base/error.h"
+
+namespace ofm {
+namespace {
+
+/// A ColorOcTree that joins eight voxels only where their colours are equal too.
+class ExactColorOcTree : public octomap::ColorOcTree {
+ public:
+  using ColorOcTree::ColorOcTree;
+
+  bool isNodeCollapsible(const octomap::ColorOcTreeNode* node) const override {
+    if (!nodeChildExists(node, 0)) return false;
+    const octomap::ColorOcTreeNode* first = getNodeChild(node, 0);
+    for (unsigned i = 0; i < 8; ++i) {
+      if (!nodeChildExists(node, i)) return false;
+      const octomap::ColorOcTreeNode* child = getNodeChild(node, i);
+      if (nodeHasChildren(child) || !(*child == *first)) return false;
+    }
+    return true;
+  }
+};
+
+octomap::OcTreeKey KeyOf(const VoxelIndex& voxel) {
+  const auto part = [](int v) { return static_cast<octomap::key_type>(v + kVoxelLimit); };
+  return {part(voxel.x()), part(voxel.y()), part(voxel.z())};
+}
+
+void SetSensorModel(octomap::AbstractOccupancyOcTree& tree, const OccupancyOptions& options) {
+  tree.setProbHit(options.probability_hit);
+  tree.setProbMiss(options.probability_miss);
+  tree.setClampingThresMin(options.probability_min);
+  tree.setClampingThresMax(options.probability_max);
+}
+
+/// The header as OctoMap's own write functions make it; these talk on the standard error stream.
+void WriteHeader(std::ostream& stream, const char* first_line,
+                 const octomap::AbstractOcTree& tree) {
+  stream << first_line
+         << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+         << fmt::format("id {}\nsize {}\nres {}\ndata\n", tree.getTreeType(), tree.size(),
+                        tree.getResolution());
+}
+
+void CheckWritten(const std::ostream& stream) {
+  if (!stream) throw Error("the octree could not be written; is the disk full?");
+}
+
+}  // namespace
+
+std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octree) {
+  auto tree = std::make_unique<ExactColorOcTree>(octree.resolution_m());
+  SetSensorModel(*tree, octree.options());
+  if (octree.empty()) return tree;  // ColorOcTree::updateInnerOccupancy needs a root
+  octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
+    octomap::ColorOcTreeNode* node = tree->setNodeValue(KeyOf(index), voxel.log_odds, true);
+    if (voxel.IsOccupied()) node->setColor(voxel.color.r, voxel.color.g, voxel.color.b);
+  });
+  tree->updateInnerOccupancy();
+  tree->prune();
+  return tree;
+}
+
+void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree) {
+  const auto tree = MakeColorOcTree(octree);
+  WriteHeader(stream, "# Octomap OcTree file", *tree);
+  tree->writeData(stream);
+  CheckWritten(stream);
+}
+
+void WriteBinaryOcTree(std::ostream& stream, const SemanticOctree& octree) {
+  octomap::OcTree tree(octree.resolution_m());
+  SetSensorModel(tree, octree.options());
+  octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
+    tree.setNodeValue(KeyOf(index), voxel.log_odds, true);
+  });
+  tree.updateInnerOccupancy();
+  tree.toMaxLikelihood();
+  tree.prune();
+  WriteHeader(stream, "# Octomap OcTree binary file", tree);
+  tree.writeBinaryData(stream);
+  CheckWritten(stream);
+}
+
+void WriteVoxelLabels(std::ostream& stream, const SemanticOctree& octree,
+                      std::span<const std::string> class_names) {
+  stream << "x,y,z,class_id,class,confidence\n";
+  octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
+    if (!voxel.IsOccupied() || voxel.class_id == kNoLabel) return;
+    const Eigen::Vector3f center = VoxelCenter(index, octree.resolution_m());
+    std::string name = voxel.class_id < class_names.size() ? class_names[voxel.class_id] : "";
+    std::replace(name.begin(), name.end(), ',', ' ');
+    stream << fmt::format("{},{},{},{},{},{:.3f}\n", center.x(), center.y(), center.z(),
+                          voxel.class_id, name, voxel.confidence / 255.);
+  });
+  CheckWritten(stream);
+}
+
+}  // namespace ofm

@@ -1,0 +1,34 @@
+// Semantic octrees as OctoMap files.
+#pragma once
+
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+
+#include <memory>
+#include <ostream>
+#include <span>
+#include <string>
+
+#include "ofm/dense/semantic_octree.h"
+
+namespace ofm {
+
+/// The tree as OctoMap's own: log-odds and colour of every voxel that is known (free ones are
+/// white, OctoMap's "no colour"). Eight voxels are joined only where occupancy and colour are
+/// equal.
+std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octree);
+
+/// Writes a .ot file: occupancy in full and colour; octovis, octomap_server and
+/// octomap::AbstractOcTree::read open it as a ColorOcTree. Throws Error where writing fails.
+void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree);
+
+/// Writes a .bt file: each voxel free or occupied; octomap::OcTree::readBinary opens it.
+void WriteBinaryOcTree(std::ostream& stream, const SemanticOctree& octree);
+
+/// Writes the labels beside an octree as CSV: a header line, then "x,y,z,class_id,class,confidence"
+/// for every occupied voxel with a label: its centre [m], the class's name (empty where class_names
+/// has none) and the confidence, 0 to 1.
+void WriteVoxelLabels(std::ostream& stream, const SemanticOctree& octree,
+                      std::span<const std::string> class_names);
+
+}  // namespace ofm

@@ -1,0 +1,53 @@
+// From labelled key frames and their poses to the semantic map.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "ofm/base/ids.h"
+#include "ofm/dense/dense_options.h"
+#include "ofm/dense/keyframe_cloud.h"
+#include "ofm/dense/semantic_octree.h"
+#include "ofm/geometry/rigid_transform.h"
+
+namespace ofm {
+
+struct SemanticMap {
+  std::vector<LabelledPoint> cloud_in_world;  ///< one point per cloud voxel
+  SemanticOctree octree;
+};
+
+/// A key frame's cloud where `world_from_camera` puts it.
+WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& world_from_camera);
+
+/// Keeps the small cloud of each key frame in its camera's frame, and builds the map from them when
+/// the poses are known: it is right after any loop closure. Not thread-safe.
+class SemanticMapper {
+ public:
+  /// Throws Error where an option is out of its range.
+  SemanticMapper(const PinholeCamera& camera, const DenseOptions& options);
+
+  /// Keeps the frame's static, labelled surface; the images are not kept. A key frame that is
+  /// there already is replaced.
+  void AddKeyframe(const LabelledFrame& frame);
+  /// Forgets a key frame; unknown ids do nothing.
+  void RemoveKeyframe(KeyframeId id) { clouds_.erase(id); }
+
+  /// Builds the whole map, key frames in the order of their ids. Key frames without a pose, or with
+  /// one that is not finite (logged), are left out. The cloud keeps only points in voxels that are
+  /// occupied in the end: what later rays cleared is in neither.
+  SemanticMap Build(const std::map<KeyframeId, RigidTransform>& world_from_camera) const;
+
+  /// Key frames that are held.
+  std::size_t size() const { return clouds_.size(); }
+  /// Of all clouds held.
+  std::size_t MemoryBytes() const;
+  const DenseOptions& options() const { return options_; }
+
+ private:
+  DenseOptions options_;
+  KeyframeCloudMaker cloud_maker_;
+  std::map<KeyframeId, KeyframeCloud> clouds_;
+};
+
+}  // namespace ofm

@@ -1,0 +1,168 @@
+#include "ofm/dense/semantic_octree.h"
+
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ofm/base/error.h"
+#include "ofm/base/random.h"
+
+namespace ofm {
+namespace {
+
+constexpr double kResolution_m = .1;
+const Eigen::Vector3f kOrigin(.05f, .05f, .05f);
+/// In the voxel (10, 0, 0), ten voxels from the origin's.
+const Eigen::Vector3f kEnd(1.05f, .05f, .05f);
+
+float LogOdds(double probability) {
+  return static_cast<float>(std::log(probability / (1 - probability)));
+}
+
+WorldScan ScanTo(const Eigen::Vector3f& end, std::uint8_t class_id = kNoLabel,
+                 std::uint8_t confidence = 200) {
+  return {kOrigin, {{end, {100, 150, 200}, class_id, confidence}}, {}};
+}
+
+WorldScan RandomScan(std::uint64_t seed) {
+  RandomEngine engine = MakeRandomEngine(seed, 0);
+  const auto uniform = [&](double low, double high) {
+    return static_cast<float>(low + (high - low) * UniformReal(engine));
+  };
+  WorldScan scan{{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}, {}, {}};
+  for (int i = 0; i < 500; ++i) {
+    scan.points.push_back(
+        {{uniform(-4, 4), uniform(-4, 4), uniform(1, 3)}, {}, static_cast<std::uint8_t>(i), 99});
+  }
+  return scan;
+}
+
+TEST(SemanticOctree, ARayFillsItsEndAndFreesWhatIsBefore) {
+  SemanticOctree octree(kResolution_m, {});
+  ASSERT_TRUE(octree.InsertScan(ScanTo(kEnd)));
+  EXPECT_FLOAT_EQ(octree.Find(kEnd)->log_odds, LogOdds(.7));
+  for (int x = 0; x < 10; ++x) {
+    EXPECT_FLOAT_EQ(octree.Find(VoxelIndex(x, 0, 0))->log_odds, LogOdds(.4));
+  }
+  EXPECT_FALSE(octree.Find(VoxelIndex(11, 0, 0)));
+  EXPECT_FALSE(octree.Find(VoxelIndex(5, 1, 0)));
+}
+
+TEST(SemanticOctree, LogOddsAreClamped) {
+  SemanticOctree octree(kResolution_m, {});
+  for (int i = 0; i < 20; ++i) octree.InsertScan(ScanTo(kEnd));
+  EXPECT_FLOAT_EQ(octree.Find(kEnd)->log_odds, LogOdds(.971));
+  EXPECT_FLOAT_EQ(octree.Find(kOrigin)->log_odds, LogOdds(.1192));
+}
+
+TEST(SemanticOctree, AVoxelIsUpdatedOncePerScanAndHitsWin) {
+  SemanticOctree octree(kResolution_m, {});
+  WorldScan scan = ScanTo(kEnd);
+  scan.points.push_back({{1.06f, .06f, .06f}, {}, kNoLabel, 0});  // the same voxel
+  scan.points.push_back({{2.05f, .05f, .05f}, {}, kNoLabel, 0});  // behind it
+  octree.InsertScan(scan);
+  EXPECT_FLOAT_EQ(octree.Find(kEnd)->log_odds, LogOdds(.7));
+  EXPECT_FLOAT_EQ(octree.Find(kOrigin)->log_odds, LogOdds(.4));
+}
+
+TEST(SemanticOctree, OccupancyIsThatOfOctoMap) {
+  SemanticOctree octree(kResolution_m, {});
+  octomap::OcTree reference(kResolution_m);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const WorldScan scan = RandomScan(seed);
+    octree.InsertScan(scan);
+    octomap::Pointcloud cloud;
+    for (const LabelledPoint& p : scan.points) {
+      cloud.push_back(p.position.x(), p.position.y(), p.position.z());
+    }
+    const octomap::point3d origin(scan.origin.x(), scan.origin.y(), scan.origin.z());
+    reference.insertPointCloud(cloud, origin, -1, false, true);
+  }
+  reference.expand();
+  std::size_t voxels = 0;
+  octree.ForEach([&](const VoxelIndex& v, const SemanticVoxel& voxel) {
+    ++voxels;
+    const octomap::OcTreeNode* node = reference.search(
+        octomap::OcTreeKey(v.x() + kVoxelLimit, v.y() + kVoxelLimit, v.z() + kVoxelLimit));
+    ASSERT_NE(node, nullptr);
+    ASSERT_EQ(voxel.log_odds, node->getLogOdds());
+  });
+  EXPECT_EQ(voxels, reference.getNumLeafNodes());
+  EXPECT_GT(voxels, 10000u);
+}
+
+TEST(SemanticOctree, SomebodyWhoStoodThereIsClearedByRaysThatPass) {
+  SemanticOctree octree(kResolution_m, {});
+  const Eigen::Vector3f wall(2.05f, .05f, .05f);
+  for (int i = 0; i < 3; ++i) octree.InsertScan(ScanTo(kEnd, 0, 250));
+  ASSERT_TRUE(octree.IsOccupied(kEnd));
+  int scans = 0;
+  while (octree.IsOccupied(kEnd) && scans < 100) {
+    octree.InsertScan(ScanTo(wall));
+    ++scans;
+  }
+  EXPECT_EQ(scans, 7);  // 3 x .847 / .405, rounded up
+  EXPECT_EQ(octree.Find(kEnd)->class_id, 0);
+  for (int i = 0; i < 5; ++i) octree.InsertScan(ScanTo(wall));
+  EXPECT_EQ(octree.Find(kEnd)->class_id, kNoLabel);  // surely free: forgotten
+  EXPECT_TRUE(octree.IsOccupied(wall));
+}
+
+TEST(SemanticOctree, RaysToFreeEndsFillNothing) {
+  SemanticOctree octree(kResolution_m, {});
+  octree.InsertScan({kOrigin, {}, {kEnd}});
+  EXPECT_FALSE(octree.Find(kEnd));
+  EXPECT_FLOAT_EQ(octree.Find(VoxelIndex(9, 0, 0))->log_odds, LogOdds(.4));
+}
+
+TEST(SemanticOctree, LabelsAndColorsAreFused) {
+  SemanticOctree octree(kResolution_m, {});
+  octree.InsertScan({kOrigin, {{kEnd, {100, 0, 10}, 3, 100}}, {}});
+  octree.InsertScan({kOrigin, {{kEnd, {200, 1, 10}, 5, 250}}, {}});
+  octree.InsertScan({kOrigin, {{kEnd, {150, 2, 10}, 3, 100}}, {}});
+  const SemanticVoxel voxel = *octree.Find(kEnd);
+  EXPECT_EQ(voxel.class_id, 5);
+  EXPECT_EQ(voxel.confidence, 83);  // 250 / 3
+  EXPECT_EQ(voxel.color, (Rgb{150, 1, 10}));
+}
+
+TEST(SemanticOctree, VoxelsComeInAnOrderThatDoesNotDependOnTheScans) {
+  const auto order = [](std::uint64_t first, std::uint64_t second) {
+    SemanticOctree octree(kResolution_m, {});
+    octree.InsertScan(RandomScan(first));
+    octree.InsertScan(RandomScan(second));
+    std::vector<VoxelIndex> voxels;
+    octree.ForEach([&](const VoxelIndex& v, const SemanticVoxel&) { voxels.push_back(v); });
+    return voxels;
+  };
+  EXPECT_EQ(order(1, 2), order(2, 1));
+}
+
+TEST(SemanticOctree, WhatIsOutsideTheGridIsLeftOut) {
+  SemanticOctree octree(kResolution_m, {});
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(octree.InsertScan({{kNan, 0, 0}, {{kEnd, {}, 1, 1}}, {}}));
+  EXPECT_FALSE(octree.InsertScan({{0, 1e9f, 0}, {{kEnd, {}, 1, 1}}, {}}));
+  EXPECT_TRUE(octree.empty());
+  EXPECT_TRUE(octree.InsertScan({kOrigin, {{{0, kNan, 0}, {}, 1, 1}}, {{0, 0, 1e9f}}}));
+  EXPECT_TRUE(octree.empty());
+  EXPECT_FALSE(octree.Find(Eigen::Vector3f(kNan, 0, 0)));
+  EXPECT_FALSE(octree.Find(VoxelIndex(40000, 0, 0)));
+}
+
+TEST(SemanticOctree, MemoryGrowsWithTheMap) {
+  SemanticOctree octree(kResolution_m, {});
+  const std::size_t before = octree.MemoryBytes();
+  octree.InsertScan(RandomScan(1));
+  EXPECT_GT(octree.MemoryBytes(), before + 100000);
+}
+
+TEST(SemanticOctree, AResolutionOfNothingIsAnError) {
+  EXPECT_THROW(SemanticOctree(0, {}), Error);
+  EXPECT_THROW(SemanticOctree(10, {}), Error);
+}
+
+}  // namespace
+}  // namespace ofm

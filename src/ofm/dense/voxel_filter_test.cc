@@ -1,0 +1,41 @@
+#include "ofm/dense/voxel_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace ofm {
+namespace {
+
+TEST(VoxelFilter, PointsOfAVoxelBecomeTheirMean) {
+  VoxelFilter filter(.1);
+  filter.Add({{.01f, .02f, .03f}, {10, 20, 30}, 5, 200});
+  filter.Add({{.03f, .04f, .05f}, {20, 40, 61}, 5, 100});
+  const auto points = filter.Points();
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_TRUE(points[0].position.isApprox(Eigen::Vector3f(.02f, .03f, .04f)));
+  EXPECT_EQ(points[0].color, (Rgb{15, 30, 46}));
+  EXPECT_EQ(points[0].class_id, 5);
+  EXPECT_EQ(points[0].confidence, 150);
+}
+
+TEST(VoxelFilter, VoxelsComeInTheOrderOfTheirFirstPoints) {
+  VoxelFilter filter(.1);
+  filter.Add({{.95f, 0, 0}, {}, 1, 1});
+  filter.Add({{-.95f, 0, 0}, {}, 2, 1});
+  filter.Add({{.91f, 0, 0}, {}, 1, 1});
+  const auto points = filter.Points();
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_FLOAT_EQ(points[0].position.x(), .93f);
+  EXPECT_FLOAT_EQ(points[1].position.x(), -.95f);
+}
+
+TEST(VoxelFilter, PointsThatAreNotFiniteAreLeftOut) {
+  VoxelFilter filter(.1);
+  filter.Add({{0, std::numeric_limits<float>::quiet_NaN(), 0}, {}, 1, 1});
+  filter.Add({{0, 1e20f, 0}, {}, 1, 1});
+  EXPECT_TRUE(filter.Points().empty());
+}
+
+}  // namespace
+}  // namespace ofm
