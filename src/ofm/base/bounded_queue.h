@@ -34,7 +34,8 @@ class BoundedQueue {
       OFM_THREAD_ANNOTATION(no_thread_safety_analysis) {
     std::unique_lock lock(mutex_);
     if (!closed_) MakeRoom();
-    const bool room = changed_.wait(lock, stop, [&] { return closed_ || Fits(); });
+    const bool room =
+        changed_.wait(lock, stop, [&]() OFM_REQUIRES(mutex_) { return closed_ || Fits(); });
     if (!room || closed_) return false;
     values_.push_back(std::move(value));
     lock.unlock();
@@ -46,7 +47,7 @@ class BoundedQueue {
   std::optional<T> Pop(std::stop_token stop = {}) OFM_EXCLUDES(mutex_)
       OFM_THREAD_ANNOTATION(no_thread_safety_analysis) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, stop, [&] { return closed_ || !values_.empty(); });
+    changed_.wait(lock, stop, [&]() OFM_REQUIRES(mutex_) { return closed_ || !values_.empty(); });
     if (values_.empty() || stop.stop_requested()) return {};
     return TakeFront(lock);
   }

@@ -1,0 +1,129 @@
+"""The checks of tools/ must fail where they should: each is tried on a small made tree."""
+
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'tools'))
+
+import check_layers  # noqa: E402
+import check_rules  # noqa: E402
+import check_sizes  # noqa: E402
+
+
+class MadeTree(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write('CMakeLists.txt', 'set(OFM_LAYERS base camera sim\n  tracking)\n')
+        self.write('src/ofm/base/ids.h', '#include <string>\n')
+
+    def write(self, path, text):
+        path = self.root / path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def problems(self, check):
+        with contextlib.redirect_stdout(io.StringIO()):
+            return check.check_tree(self.root)
+
+    def assert_one(self, check, *parts):
+        problems = self.problems(check)
+        self.assertEqual(len(problems), 1, problems)
+        for part in parts:
+            self.assertIn(part, problems[0])
+
+
+class Layers(MadeTree):
+
+    def check(self, path, text):
+        self.write(path, text)
+        return self.problems(check_layers)
+
+    def test_an_include_up_the_list_is_fine(self):
+        self.assertEqual(self.check('src/ofm/camera/a.cc', '#include "ofm/base/ids.h"\n'), [])
+
+    def test_an_include_down_the_list_fails(self):
+        self.check('src/ofm/camera/a.cc', '\n#include "ofm/tracking/tracker.h"\n')
+        self.assert_one(check_layers, 'src/ofm/camera/a.cc:2', 'camera may not use tracking')
+
+    def test_an_include_in_a_comment_is_none(self):
+        self.assertEqual(self.check('src/ofm/base/a.h', '// #include "ofm/camera/a.h"\n'), [])
+
+    def test_the_programs_code_is_not_the_librarys(self):
+        self.check('src/ofm/base/a.h', '#include "apps/ofm-slam/commands.h"\n')
+        self.assert_one(check_layers, 'src/ofm/base/a.h:1')
+
+    def test_an_include_from_beside_fails(self):
+        self.check('src/ofm/base/a.h', '#include "ids.h"\n')
+        self.assert_one(check_layers, 'src/ofm/base/a.h:1')
+
+    def test_a_module_outside_the_list_fails(self):
+        self.check('src/ofm/extra/a.h', '\n')
+        self.assert_one(check_layers, 'src/ofm/extra')
+
+    def test_only_tests_may_reach_down_to_the_test_world(self):
+        line = '#include "ofm/sim/world.h"\n'
+        self.assertEqual(self.check('src/ofm/camera/a_test.cc', line), [])
+        self.check('src/ofm/camera/a.cc', line)
+        self.assert_one(check_layers, 'src/ofm/camera/a.cc:1')
+
+    def test_a_link_down_the_list_fails(self):
+        self.check('src/ofm/camera/CMakeLists.txt', 'ofm_add_module(camera LINKS ofm::tracking)\n')
+        self.assert_one(check_layers, 'src/ofm/camera/CMakeLists.txt:1')
+
+    def test_mutexes_outside_base_and_map_fail(self):
+        for line in ('std::mutex mutex;', 'std::scoped_lock lock(m);', '#include <mutex>',
+                     'const MutexLock lock(mutex_);', 'std::condition_variable_any c;'):
+            self.check('src/ofm/camera/a.h', line + '\n')
+            self.assert_one(check_layers, 'src/ofm/camera/a.h:1', 'mutexes')
+        self.check('src/ofm/camera/a.h', '// std::mutex\n')
+        self.assertEqual(self.check('src/ofm/base/mutex.h', 'std::mutex mutex;\n'), [])
+
+
+class Rules(MadeTree):
+
+    def test_what_a_library_must_not_do_fails(self):
+        for line in ('std::cout << 1;', 'exit(1);', 'std::shuffle(a, b, e);', 'printf("x");',
+                     'std::uniform_int_distribution<int> d;', 'rand();', 'usleep(5);'):
+            self.write('src/ofm/base/a.cc', 'int x;\n' + line + '\n')
+            self.assert_one(check_rules, 'src/ofm/base/a.cc:2')
+
+    def test_words_that_only_look_alike_are_fine(self):
+        self.write('src/ofm/base/a.cc',
+                   'snprintf(b, 9, "x");\noperand();\non_exit(1);\n// std::cout\n')
+        self.assertEqual(self.problems(check_rules), [])
+
+    def test_tests_are_free(self):
+        self.write('src/ofm/base/a_test.cc', 'sleep_for(x);\n')
+        self.assertEqual(self.problems(check_rules), [])
+
+
+class Sizes(MadeTree):
+
+    def test_a_long_file_fails(self):
+        self.write('src/ofm/base/ids_test.cc', 'x\n' * 500)
+        self.assertEqual(self.problems(check_sizes), [])
+        self.write('src/ofm/base/ids_test.cc', 'x\n' * 501)
+        self.assert_one(check_sizes, 'src/ofm/base/ids_test.cc: 501 lines')
+
+    def test_too_few_lines_of_test_fail(self):
+        self.write('src/ofm/base/a.cc', 'x\n' * 99)  # and one line of ids.h
+        self.write('src/ofm/base/a_test.cc', 'x\n' * 60)
+        self.assertEqual(self.problems(check_sizes), [])
+        self.write('src/ofm/base/a_test.cc', 'x\n' * 59)
+        self.assert_one(check_sizes, '0.59')
+
+    def test_the_tests_folder_counts_as_test(self):
+        self.write('src/ofm/base/a.cc', 'x\n' * 99)
+        self.write('tests/integration/run.cc', 'x\n' * 60)
+        self.assertEqual(self.problems(check_sizes), [])
+
+
+if __name__ == '__main__':
+    unittest.main()
