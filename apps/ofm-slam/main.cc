@@ -19,8 +19,9 @@ constexpr const char* kDescription =
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam evaluate out/trajectory.txt desk/groundtruth.txt --sequence desk\n"
-    "  ofm-slam evaluate --help";
+    "  ofm-slam run --help";
 
 void LogToStderr() { spdlog::set_default_logger(spdlog::stderr_color_mt("ofm-slam")); }
 
@@ -30,6 +31,7 @@ int RunCommandLine(int argc, char** argv) {
   app.footer(kExamples);
   app.set_version_flag("--version", "ofm-slam " OFM_VERSION);
   app.require_subcommand(0, 1);  // none is reported below: CLI11 would hide a misspelt one
+  ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
   try {
     app.parse(argc, argv);

@@ -5,11 +5,9 @@
 #include <opencv2/core/mat.hpp>
 
 #include "ofm/base/ids.h"
+#include "ofm/perception/label_image.h"
 
 namespace ofm {
-
-/// The class id of what no instance covers.
-inline constexpr std::uint8_t kNoLabel = 255;
 
 /// Images of one key frame, all of the camera's size. The images are shared, not copied.
 struct LabelledFrame {

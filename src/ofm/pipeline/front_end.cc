@@ -25,8 +25,7 @@ PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
       flow = flow_.Advance(prepared.frame.gray, last_points_);
     }
     ScopedStageTimer timer(times, "dynamics");
-    prepared.dynamic =
-        dynamics_.Process({prepared.frame, prepared.segmentation, segmenter_->class_names(), flow});
+    prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow});
   }
   ScopedStageTimer timer(times, "features");
   Features features = extractor_.Extract(prepared.frame.gray, prepared.dynamic.mask);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ofm/eval/trajectory_errors.h"
+#include "ofm/eval/evaluation.h"
 #include "ofm/pipeline/options.h"
 #include "ofm/pipeline/run_outcome.h"
 
@@ -14,21 +14,22 @@ namespace ofm {
 /// Makes the folder and tries to write in it; throws Error that says what to do where that fails.
 void PrepareOutputFolder(const std::filesystem::path& folder);
 
-/// What summary.json tells beside the outcome.
+/// What the files tell beside the outcome.
 struct RunDescription {
-  std::string input;  ///< sequence folder
+  std::string version;  ///< of the program
+  std::string input;    ///< sequence folder
+  std::string runner;   ///< "sequential" or "threaded"
   PinholeCamera camera;
-  std::string runner;                                   ///< "sequential" or "threaded"
-  std::optional<TrajectoryErrors> errors, live_errors;  ///< where ground truth was there
+  std::optional<TrajectoryEvaluation> evaluation, live_evaluation;  ///< where there is ground truth
 };
 
-/// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, map.ply, map.ot, map.bt, config.yaml
-/// and summary.json, each one atomically. Throws Error where one cannot be written; the others are
-/// there.
+/// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, map.ply, map.ot, map.bt, map_labels.csv,
+/// camera.yaml, config.yaml and summary.json, each one atomically. Throws Error where one cannot be written;
+/// those before it are then there.
 void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome,
                   const SlamOptions& options, const RunDescription& description);
 
-/// summary.json's text.
+/// summary.json's text: counts, coverage, errors, time per stage, versions, seed.
 std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
                         const RunDescription& description);
 

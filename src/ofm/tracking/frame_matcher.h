@@ -20,6 +20,7 @@ struct PointMatch {
 /// The previous frame, for prediction.
 struct TrackedFrame {
   FrameId id;
+  std::int64_t stamp_ns = 0;
   std::shared_ptr<const FrameFeatures> features;
   std::vector<LandmarkId> landmarks;  ///< by feature
   RigidTransform camera_from_world;

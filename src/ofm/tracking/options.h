@@ -36,6 +36,7 @@ struct TrackingOptions {
       20;                      ///< fewer widen the search, then fall back to the reference keyframe
   int min_frame_inliers = 10;  ///< frame to frame
   int min_map_inliers = 30;    ///< against the local map; fewer are a loss
+  double doubtful_share = 0.4;        ///< of the last frame's inliers; fewer call for a second opinion
   int min_relocalization_inliers = 50;
   int max_local_keyframes = 60;
   int max_hamming = 100;     ///< bits
@@ -58,6 +59,8 @@ struct TrackingOptions {
           Range{4, 1000});
     visit("min_map_inliers", self.min_map_inliers, "inliers needed against the local map",
           Range{4, 1000});
+    visit("doubtful_share", self.doubtful_share,
+          "share of the last frame's inliers under which the keyframe is asked too", Range{0, 1});
     visit("min_relocalization_inliers", self.min_relocalization_inliers,
           "inliers needed to relocalise", Range{4, 1000});
     visit("max_local_keyframes", self.max_local_keyframes, "keyframes of the local map at most",

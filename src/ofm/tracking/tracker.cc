@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ofm/base/time.h"
 #include "ofm/map/covisibility.h"
 #include "ofm/tracking/keyframe_decision.h"
 
@@ -23,27 +24,43 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
     Remember(input, result);
     return result;
   }
-  TrackingResult result;
-  result.landmarks.resize(input.features->size());
   SyncWithMap(*input.map);
-  const bool was_lost = !last_.has_value();
-  std::optional<Estimate> estimate = was_lost ? Relocalize(input) : TrackFromLastFrame(input);
-  if (!estimate && !was_lost) estimate = Relocalize(input);
-  result.status = was_lost ? TrackingStatus::kRelocalized : TrackingStatus::kTracked;
-  if (!estimate || !TrackLocalMap(input, *estimate, result)) {
-    result.status = TrackingStatus::kLost;
-  } else if (NeedsKeyframe(GatherKeyframeEvidence(model_, input, result, last_keyframe_frame_),
-                           options_.keyframe)) {
-    result.keyframe = KeyframeCandidate{input.frame_id,
-                                        input.stamp_ns,
-                                        result.camera_from_world,
-                                        result.reference,
-                                        result.camera_from_reference,
-                                        input.features,
-                                        result.landmarks};
+  TrackingResult result = TrackOrRelocalize(input);
+  if (HasPose(result.status) &&
+      NeedsKeyframe(GatherKeyframeEvidence(model_, input, result, last_keyframe_frame_),
+                    options_.keyframe)) {
+    result.keyframe = KeyframeCandidate{
+        input.frame_id,   input.stamp_ns,               result.camera_from_world,
+        result.reference, result.camera_from_reference, input.features,
+        result.landmarks};
   }
   Remember(input, result);
   return result;
+}
+
+/// Follows the last frame; where that fails or leaves few inliers, the reference keyframe is asked
+/// too, by descriptors alone, and the better of the two answers counts.
+TrackingResult Tracker::TrackOrRelocalize(const TrackingInput& input) const {
+  TrackingResult best;
+  best.status = TrackingStatus::kLost;
+  best.landmarks.resize(input.features->size());
+  const auto consider = [&](const std::optional<Estimate>& estimate) {
+    if (!estimate) return;
+    TrackingResult result = TrackLocalMap(input, *estimate);
+    if (HasPose(result.status) && result.inliers > best.inliers) best = std::move(result);
+  };
+  if (last_) {
+    consider(TrackFromLastFrame(input));
+    const Keyframe* reference = input.map->keyframes.Find(reference_);
+    if (reference != nullptr && best.inliers < options_.doubtful_share * last_inliers_) {
+      consider(TrackFromKeyframe(input, *reference, options_.min_frame_inliers));
+    }
+  }
+  if (!HasPose(best.status)) {
+    consider(Relocalize(input));
+    if (HasPose(best.status)) best.status = TrackingStatus::kRelocalized;
+  }
+  return best;
 }
 
 TrackingResult Tracker::Initialize(const TrackingInput& input) const {
@@ -97,9 +114,15 @@ std::optional<Tracker::Estimate> Tracker::OptimizeMatches(
   return estimate;
 }
 
+/// Constant velocity since the last frame, whatever the time between frames.
+RigidTransform Tracker::PredictPose(std::int64_t stamp_ns) const {
+  if (!velocity_) return last_->camera_from_world;
+  const double elapsed_s = NanosecondsToSeconds(stamp_ns - last_->stamp_ns);
+  return ExpSe3(elapsed_s * *velocity_) * last_->camera_from_world;
+}
+
 std::optional<Tracker::Estimate> Tracker::TrackFromLastFrame(const TrackingInput& input) const {
-  const RigidTransform predicted =
-      motion_ ? *motion_ * last_->camera_from_world : last_->camera_from_world;
+  const RigidTransform predicted = PredictPose(input.stamp_ns);
   const FrameView view{*input.features, predicted};
   double radius = options_.search_radius_px;
   auto matches = MatchLastFrame(model_, options_, *input.map, *last_, view, radius);
@@ -107,13 +130,10 @@ std::optional<Tracker::Estimate> Tracker::TrackFromLastFrame(const TrackingInput
     radius *= 2;
     matches = MatchLastFrame(model_, options_, *input.map, *last_, view, radius);
   }
-  if (static_cast<int>(matches.size()) >= options_.min_motion_matches) {
-    auto estimate = OptimizeMatches(input, predicted, matches);
-    if (estimate && estimate->map_matches >= options_.min_frame_inliers) return estimate;
-  }
-  const Keyframe* reference = input.map->keyframes.Find(reference_);
-  if (reference == nullptr) return {};
-  return TrackFromKeyframe(input, *reference, options_.min_frame_inliers);
+  if (static_cast<int>(matches.size()) < options_.min_motion_matches) return {};
+  auto estimate = OptimizeMatches(input, predicted, matches);
+  if (!estimate || estimate->map_matches < options_.min_frame_inliers) return {};
+  return estimate;
 }
 
 std::optional<Tracker::Estimate> Tracker::TrackFromKeyframe(const TrackingInput& input,
@@ -157,62 +177,62 @@ std::optional<Tracker::Estimate> Tracker::Relocalize(const TrackingInput& input)
     auto estimate =
         TrackFromKeyframe(input, *input.map->keyframes.Find(id), options_.pnp.min_inliers);
     if (!estimate) continue;
-    TrackingResult trial;
-    trial.landmarks.resize(input.features->size());
-    Estimate refined = *estimate;
-    if (TrackLocalMap(input, refined, trial) &&
-        trial.inliers >= options_.min_relocalization_inliers) {
+    const TrackingResult trial = TrackLocalMap(input, *estimate);
+    if (HasPose(trial.status) && trial.inliers >= options_.min_relocalization_inliers) {
       return estimate;
     }
   }
   return {};
 }
 
-bool Tracker::TrackLocalMap(const TrackingInput& input, Estimate& estimate,
-                            TrackingResult& result) const {
+TrackingResult Tracker::TrackLocalMap(const TrackingInput& input, const Estimate& estimate) const {
+  TrackingResult result;
+  result.status = TrackingStatus::kLost;
+  result.landmarks.resize(input.features->size());
   const FrameView view{*input.features, estimate.camera_from_world};
-  std::vector<PointMatch> known;
+  std::vector<PointMatch> matches;
   for (const PointMatch& match : estimate.matches) {
-    if (match.landmark.valid()) known.push_back(match);
+    if (match.landmark.valid()) matches.push_back(match);
   }
-  LocalMapMatches local = MatchLocalMap(model_, options_, *input.map, view, known);
-  std::vector<PointMatch> all = std::move(known);
-  all.insert(all.end(), local.matches.begin(), local.matches.end());
-  std::optional<Estimate> refined = OptimizeMatches(input, estimate.camera_from_world, all);
-  if (!refined || refined->map_matches < options_.min_map_inliers) return false;
-  for (const PointMatch& match : refined->matches) result.landmarks[match.feature] = match.landmark;
-  std::vector<LandmarkId> found;
-  for (const PointMatch& match : refined->matches) found.push_back(match.landmark);
-  std::sort(found.begin(), found.end());
-  std::vector<LandmarkId> looked_for = std::move(local.visible);
-  for (const PointMatch& match : estimate.matches) {
-    if (match.landmark.valid()) looked_for.push_back(match.landmark);
-  }
-  for (const LandmarkId id : looked_for) {
-    result.sightings.push_back({id, std::binary_search(found.begin(), found.end(), id)});
-  }
+  const LocalMapMatches local = MatchLocalMap(model_, options_, *input.map, view, matches);
+  std::vector<LandmarkId> looked_for = local.visible;
+  for (const PointMatch& match : matches) looked_for.push_back(match.landmark);
+  matches.insert(matches.end(), local.matches.begin(), local.matches.end());
+  const auto refined = OptimizeMatches(input, estimate.camera_from_world, matches);
+  const auto reference_pose = input.map->FindKeyframePose(local.reference);
+  if (!refined || !reference_pose || refined->map_matches < options_.min_map_inliers) return result;
+
+  result.status = TrackingStatus::kTracked;
   result.inliers = refined->map_matches;
   result.camera_from_world = refined->camera_from_world;
   result.reference = local.reference;
-  const auto reference_pose = input.map->FindKeyframePose(result.reference);
-  if (!reference_pose) return false;
   result.camera_from_reference = result.camera_from_world * reference_pose->Inverse();
-  estimate = std::move(*refined);
-  return true;
+  std::vector<LandmarkId> found;
+  for (const PointMatch& match : refined->matches) {
+    result.landmarks[match.feature] = match.landmark;
+    found.push_back(match.landmark);
+  }
+  std::sort(found.begin(), found.end());
+  for (const LandmarkId id : looked_for) {
+    result.sightings.push_back({id, std::binary_search(found.begin(), found.end(), id)});
+  }
+  return result;
 }
 
 void Tracker::Remember(const TrackingInput& input, const TrackingResult& result) {
   if (!HasPose(result.status)) {
     last_.reset();
-    motion_.reset();
+    velocity_.reset();
     return;
   }
-  if (last_) {
-    motion_ = result.camera_from_world * last_->camera_from_world.Inverse();
-  } else {
-    motion_.reset();
+  velocity_.reset();
+  if (last_ && input.stamp_ns > last_->stamp_ns) {
+    const double elapsed_s = NanosecondsToSeconds(input.stamp_ns - last_->stamp_ns);
+    velocity_ = LogSe3(result.camera_from_world * last_->camera_from_world.Inverse()) / elapsed_s;
   }
-  last_ = TrackedFrame{input.frame_id, input.features, result.landmarks, result.camera_from_world};
+  last_ = TrackedFrame{input.frame_id, input.stamp_ns, input.features, result.landmarks,
+                       result.camera_from_world};
+  last_inliers_ = result.inliers;
   reference_ = result.reference;
   camera_from_reference_ = result.camera_from_reference;
   if (result.keyframe) last_keyframe_frame_ = input.frame_id;

@@ -24,12 +24,14 @@ class Tracker {
   struct Estimate;
 
   TrackingResult Initialize(const TrackingInput& input) const;
+  TrackingResult TrackOrRelocalize(const TrackingInput& input) const;
+  RigidTransform PredictPose(std::int64_t stamp_ns) const;
   void SyncWithMap(const MapSnapshot& map);
   std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
   std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,
                                             int min_inliers) const;
   std::optional<Estimate> Relocalize(const TrackingInput& input) const;
-  bool TrackLocalMap(const TrackingInput& input, Estimate& estimate, TrackingResult& result) const;
+  TrackingResult TrackLocalMap(const TrackingInput& input, const Estimate& estimate) const;
   std::optional<Estimate> OptimizeMatches(const TrackingInput& input, const RigidTransform& initial,
                                           const std::vector<PointMatch>& matches) const;
   void Remember(const TrackingInput& input, const TrackingResult& result);
@@ -40,7 +42,8 @@ class Tracker {
   std::optional<TrackedFrame> last_;      // with a pose; empty while lost or waiting
   KeyframeId reference_;                  // of the last frame with a pose
   RigidTransform camera_from_reference_;  // of the last frame with a pose
-  std::optional<RigidTransform> motion_;  // this camera from the last one, constant velocity
+  std::optional<Vector6d> velocity_;      // twist of camera_from_world per second
+  int last_inliers_ = 0;
   FrameId last_keyframe_frame_;           // the newest frame that was proposed as keyframe
 };
 

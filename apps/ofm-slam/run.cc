@@ -1,0 +1,82 @@
+// ofm-slam run: a recorded sequence in; trajectory, map and figures out.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <opencv2/core/utility.hpp>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "ofm/base/error.h"
+#include "option_arguments.h"
+#include "run_session.h"
+
+namespace ofm {
+namespace {
+
+constexpr const char* kFooter =
+    "Writes to the output folder: trajectory.txt (TUM format, world_from_camera, after\n"
+    "optimisation), trajectory_live.txt (as known at the time of each frame), keyframes.txt,\n"
+    "map.ply (coloured, labelled cloud), map.ot and map.bt (OctoMap), map_labels.csv,\n"
+    "config.yaml, camera.yaml and summary.json. With groundtruth.txt in the sequence the summary\n"
+    "has ATE and RPE. Ctrl-C ends the run early and keeps all results.\n"
+    "Examples:\n"
+    "  ofm-slam run desk --camera tum-fr1 --output out\n"
+    "  ofm-slam run desk_walking --segmenter masks --output out\n"
+    "  ofm-slam run desk_walking --segmenter yolo-seg --model yolov8n-seg.onnx --output out\n"
+    "  ofm-slam run desk --threaded --set features.count=1500 --seed 3 --output out";
+
+struct RunArguments {
+  RunSettings settings;
+  OptionArguments options;
+  bool print_config = false;
+};
+
+void Run(RunArguments& arguments) {
+  // One stage per thread; libraries do not start their own.
+  cv::setNumThreads(1);
+  arguments.settings.options = arguments.options.Resolve();
+  if (arguments.print_config) {
+    fmt::print("{}", PrintOptionsYaml(OptionFields(arguments.settings.options)));
+    return;
+  }
+  if (arguments.settings.sequence.empty()) throw Error("name a SEQUENCE folder to run on");
+  const InterruptStop interrupt;
+  const RunReport report = RunSession(arguments.settings, interrupt.token());
+  fmt::print("{}results in {}\n", FormatSummary(report), arguments.settings.output.string());
+  if (!report.outcome.error.empty()) {
+    throw Error(report.outcome.error + " (results up to there are in " +
+                arguments.settings.output.string() + ")");
+  }
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  RunSettings& settings = arguments->settings;
+  settings.output = "out";
+  CLI::App* command = app.add_subcommand("run", "Track a camera and map a room from a recording");
+  command->footer(kFooter);
+  command->add_option("SEQUENCE", settings.sequence, "Folder in the TUM RGB-D layout");
+  command->add_option("--output,-o", settings.output, "Folder for the results")
+      ->capture_default_str();
+  command
+      ->add_option("--camera", settings.camera,
+                   "tum-fr1, tum-fr2, tum-fr3, a YAML or JSON file, or auto (the sequence's own)")
+      ->capture_default_str();
+  arguments->options.AddTo(*command);
+  command->add_flag("--threaded", settings.threaded,
+                    "Mapping in a thread of its own (not reproducible to the byte)");
+  command->add_flag("--realtime", settings.realtime,
+                    "Play at the recorded pace, threaded, and drop frames that come too early");
+  command->add_option("--start", settings.range.first, "First frame")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--frames", settings.range.max_count, "Frames at most")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--quiet", settings.quiet, "No progress bar");
+  command->add_flag("--print-config", arguments->print_config,
+                    "Print all settings with their documentation and end");
+  command->callback([arguments] { Run(*arguments); });
+}
+
+}  // namespace ofm

@@ -1,0 +1,126 @@
+#include "run_session.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "ofm/base/error.h"
+#include "ofm/io/camera_file.h"
+#include "ofm/io/prefetching_source.h"
+#include "ofm/io/trajectory_file.h"
+#include "ofm/perception/make_segmenter.h"
+#include "ofm/pipeline/paced_source.h"
+#include "ofm/pipeline/runner.h"
+#include "progress_bar.h"
+
+namespace ofm {
+namespace {
+
+/// The sequence's frames, decoded ahead, at the recorded pace where that is asked for.
+struct Source {
+  std::unique_ptr<FrameSource> frames;
+  PacedSource* paced = nullptr;
+};
+
+Source OpenSource(const RunSettings& settings, std::shared_ptr<const RgbdSequence> sequence) {
+  Source source;
+  source.frames = std::make_unique<PrefetchingSource>(
+      std::make_unique<TumFrameSource>(std::move(sequence), settings.range));
+  if (settings.realtime) {
+    auto paced = std::make_unique<PacedSource>(std::move(source.frames), SteadyPacingClock());
+    source.paced = paced.get();
+    source.frames = std::move(paced);
+  }
+  return source;
+}
+
+/// Errors against ground truth; empty where there is none, or too few poses to compare.
+std::optional<TrajectoryEvaluation> Evaluate(const RgbdSequence& sequence,
+                                             const RunSettings& settings,
+                                             const Trajectory& estimate) {
+  if (!sequence.groundtruth()) return {};
+  const Trajectory groundtruth = LoadTrajectory(*sequence.groundtruth());
+  std::vector<std::int64_t> stamps;
+  const std::size_t first = settings.range.first;
+  const std::size_t count =
+      settings.range.max_count > 0 ? settings.range.max_count : sequence.size();
+  for (std::size_t i = first; i < std::min(sequence.size(), first + count); ++i) {
+    stamps.push_back(sequence.entries()[i].color.stamp_ns);
+  }
+  EvaluationOptions options;
+  options.frames = CountInSpan(stamps, groundtruth);
+  try {
+    return EvaluateTrajectory(estimate, groundtruth, options);
+  } catch (const Error& error) {
+    spdlog::warn("no errors against ground truth: {}", error.what());
+    return {};
+  }
+}
+
+}  // namespace
+
+RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
+  const PinholeCamera camera = ResolveCamera(settings.camera, settings.sequence);
+  const auto sequence = std::make_shared<const RgbdSequence>(settings.sequence, camera);
+  Source source = OpenSource(settings, sequence);
+  auto segmenter = MakeSegmenter(settings.options.perception, settings.sequence);
+  PrepareOutputFolder(settings.output);
+
+  Slam slam(camera, settings.options, std::move(segmenter));
+  RunReport report;
+  {
+    ProgressBar progress(source.frames->size());
+    RunContext context;
+    if (!settings.quiet) context.observers.push_back(&progress);
+    context.stop = stop;
+    report.outcome = settings.threaded || settings.realtime
+                         ? RunThreaded(slam, *source.frames, context)
+                         : RunSequential(slam, *source.frames, context);
+  }
+  if (source.paced != nullptr) report.outcome.counts.frames_dropped = source.paced->dropped();
+  report.description.version = OFM_VERSION;
+  report.description.input = settings.sequence.string();
+  report.description.runner = settings.threaded || settings.realtime ? "threaded" : "sequential";
+  report.description.camera = camera;
+  report.description.evaluation = Evaluate(*sequence, settings, report.outcome.trajectory);
+  report.description.live_evaluation =
+      Evaluate(*sequence, settings, report.outcome.live_trajectory);
+  WriteResults(settings.output, report.outcome, settings.options, report.description);
+  return report;
+}
+
+std::string FormatSummary(const RunReport& report) {
+  const RunOutcome& outcome = report.outcome;
+  const RunCounts& counts = outcome.counts;
+  std::string text;
+  const double share =
+      counts.frames == 0 ? 0 : 100.0 * static_cast<double>(counts.frames_tracked) / counts.frames;
+  text += fmt::format("frames      {} tracked of {} ({:.1f} %), {} dropped, lost {} times\n",
+                      counts.frames_tracked, counts.frames, share, counts.frames_dropped,
+                      counts.losses);
+  text += fmt::format("map         {} keyframes ({} made), {} landmarks, {} cloud points\n",
+                      counts.keyframes, counts.keyframes_made, counts.landmarks,
+                      outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
+  text += fmt::format("culling     {:.1f} % of the pixels masked on average\n",
+                      100 * counts.mean_masked_share);
+  text += fmt::format("time        {:.1f} s, {:.1f} frames/s, {:.1f} ms CPU per frame\n",
+                      outcome.wall_s, outcome.wall_s > 0 ? counts.frames / outcome.wall_s : 0,
+                      counts.frames > 0 ? 1e3 * outcome.process_cpu_s / counts.frames : 0);
+  for (const auto& [stage, durations] : outcome.times.stages()) {
+    const DurationStatistics cpu = Summarize(durations.cpu_ms);
+    text += fmt::format("  {:<20} {:>6} x  median {:>8.2f} ms  p99 {:>8.2f} ms (CPU)\n", stage,
+                        cpu.count, cpu.median_ms, cpu.p99_ms);
+  }
+  if (report.description.evaluation) {
+    text += "\nagainst ground truth, after optimisation:\n";
+    text += FormatEvaluation(*report.description.evaluation);
+  }
+  if (report.description.live_evaluation) {
+    text += fmt::format("as known at the time of each frame: ATE rmse {:.4f} m\n",
+                        report.description.live_evaluation->ate.translation_m.rmse);
+  }
+  return text;
+}
+
+}  // namespace ofm

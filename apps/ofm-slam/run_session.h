@@ -1,0 +1,39 @@
+// One run of the system on a recorded sequence, with its files.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "ofm/io/tum_sequence.h"
+#include "ofm/pipeline/options.h"
+#include "ofm/pipeline/result_writer.h"
+#include "ofm/pipeline/run_outcome.h"
+
+namespace ofm {
+
+struct RunSettings {
+  std::filesystem::path sequence, output;
+  std::string camera = "auto";  ///< preset, file or "auto"
+  FrameRange range;
+  bool threaded = false;
+  bool realtime = false;  ///< at the recorded pace; frames that come too early are dropped
+  bool quiet = false;     ///< no progress bar
+  SlamOptions options;
+};
+
+struct RunReport {
+  RunOutcome outcome;
+  RunDescription description;
+};
+
+/// Opens the sequence, runs the system and writes all results. Bad input is reported before
+/// anything is written; where a frame fails later, the results up to it are written and
+/// outcome.error tells why.
+RunReport RunSession(const RunSettings& settings, std::stop_token stop = {});
+
+/// A summary for people, with units; ends in a newline.
+std::string FormatSummary(const RunReport& report);
+
+}  // namespace ofm

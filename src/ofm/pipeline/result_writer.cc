@@ -1,0 +1,129 @@
+#include "ofm/pipeline/result_writer.h"
+
+#include <sys/resource.h>
+
+#include <ceres/version.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core/version.hpp>
+
+#include "ofm/base/error.h"
+#include "ofm/dense/octree_file.h"
+#include "ofm/dense/ply_file.h"
+#include "ofm/io/atomic_file.h"
+#include "ofm/io/trajectory_file.h"
+
+namespace ofm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json StatisticsJson(const std::vector<double>& durations_ms) {
+  const DurationStatistics statistics = Summarize(durations_ms);
+  return {{"count", statistics.count},
+          {"mean_ms", statistics.mean_ms},
+          {"median_ms", statistics.median_ms},
+          {"p99_ms", statistics.p99_ms},
+          {"max_ms", statistics.max_ms}};
+}
+
+Json CountsJson(const RunCounts& counts) {
+  const double share = counts.frames == 0
+                           ? 0
+                           : static_cast<double>(counts.frames_tracked) / counts.frames;
+  return {{"frames", counts.frames},
+          {"frames_tracked", counts.frames_tracked},
+          {"tracked_share", share},
+          {"frames_dropped", counts.frames_dropped},
+          {"losses", counts.losses},
+          {"keyframes_made", counts.keyframes_made},
+          {"keyframes", counts.keyframes},
+          {"landmarks", counts.landmarks},
+          {"mean_masked_share", counts.mean_masked_share}};
+}
+
+Json StagesJson(const StageTimes& times) {
+  Json json = Json::object();
+  for (const auto& [stage, durations] : times.stages()) {
+    json[stage] = {{"cpu", StatisticsJson(durations.cpu_ms)},
+                   {"wall", StatisticsJson(durations.wall_ms)}};
+  }
+  return json;
+}
+
+double PeakMemoryMib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void WriteMap(const std::filesystem::path& folder, const SemanticMap& map,
+              const std::vector<std::string>& class_names) {
+  WriteFileAtomically(folder / "map.ply", [&](std::ostream& stream) {
+    WritePly(stream, map.cloud_in_world, class_names);
+  });
+  WriteFileAtomically(folder / "map.ot",
+                      [&](std::ostream& stream) { WriteColorOcTree(stream, map.octree); });
+  WriteFileAtomically(folder / "map.bt",
+                      [&](std::ostream& stream) { WriteBinaryOcTree(stream, map.octree); });
+  WriteFileAtomically(folder / "map_labels.csv", [&](std::ostream& stream) {
+    WriteVoxelLabels(stream, map.octree, class_names);
+  });
+}
+
+}  // namespace
+
+void PrepareOutputFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Error(folder, "cannot be made (" + error.message() + "); choose another --output");
+  }
+  const std::filesystem::path probe = folder / ".ofm-slam-probe";
+  try {
+    WriteFileAtomically(probe, "probe");
+  } catch (const Error&) {
+    throw Error(folder, "cannot be written to; choose another --output");
+  }
+  std::filesystem::remove(probe, error);
+}
+
+std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
+                        const RunDescription& description) {
+  Json json;
+  json["version"] = description.version;
+  json["libraries"] = {{"opencv", CV_VERSION}, {"ceres", CERES_VERSION_STRING}};
+  json["input"] = description.input;
+  json["runner"] = description.runner;
+  json["seed"] = options.seed;
+  json["error"] = outcome.error.empty() ? Json(nullptr) : Json(outcome.error);
+  json["counts"] = CountsJson(outcome.counts);
+  if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
+  if (description.live_evaluation) {
+    json["trajectory_live"] = EvaluationToJson(*description.live_evaluation);
+  }
+  if (outcome.semantic_map) {
+    json["map"] = {{"cloud_points", outcome.semantic_map->cloud_in_world.size()},
+                   {"resolution_m", options.dense.resolution_m}};
+  }
+  json["wall_s"] = outcome.wall_s;
+  json["process_cpu_s"] = outcome.process_cpu_s;
+  json["peak_memory_mib"] = PeakMemoryMib();
+  json["stages"] = StagesJson(outcome.times);
+  return json.dump(2) + "\n";
+}
+
+void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome,
+                  const SlamOptions& options, const RunDescription& description) {
+  SaveTrajectory(folder / "trajectory.txt", outcome.trajectory);
+  SaveTrajectory(folder / "trajectory_live.txt", outcome.live_trajectory);
+  SaveTrajectory(folder / "keyframes.txt", outcome.keyframe_trajectory);
+  SlamOptions printed = options;
+  WriteFileAtomically(folder / "config.yaml", PrintOptionsYaml(OptionFields(printed)));
+  PinholeCamera camera = description.camera;
+  WriteFileAtomically(folder / "camera.yaml", PrintOptionsYaml(OptionFields(camera)));
+  WriteFileAtomically(folder / "summary.json", SummaryJson(outcome, options, description));
+  if (outcome.semantic_map) WriteMap(folder, *outcome.semantic_map, outcome.class_names);
+}
+
+}  // namespace ofm
