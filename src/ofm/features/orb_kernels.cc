@@ -22,23 +22,28 @@ int BestArc(const std::array<int, 16>& difference) {
   return best;
 }
 
+/// Whether an arc over the threshold can exist: it holds one of each two opposite pixels.
+bool MayBeCorner(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
+                 int threshold) {
+  const int bright = *centre + threshold, dark = *centre - threshold;
+  bool may_be_brighter = true, may_be_darker = true;
+  for (int i = 0; i < 8 && (may_be_brighter || may_be_darker); i += 2) {
+    const int a = centre[circle[i]], b = centre[circle[i + 8]];
+    may_be_brighter = may_be_brighter && std::max(a, b) > bright;
+    may_be_darker = may_be_darker && std::min(a, b) < dark;
+  }
+  return may_be_brighter || may_be_darker;
+}
+
 int FastScore(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
               int threshold) {
+  if (!MayBeCorner(centre, circle, threshold)) return 0;
   std::array<int, 16> brighter, darker;
   for (int i = 0; i < 16; ++i) {
-    const int difference = centre[circle[i]] - *centre;
-    brighter[i] = std::max(difference, 0);
-    darker[i] = std::max(-difference, 0);
+    brighter[i] = centre[circle[i]] - *centre;
+    darker[i] = -brighter[i];
   }
-  // An arc of nine holds one of each two opposite pixels.
-  int most_brighter = 255, most_darker = 255;
-  for (int i = 0; i < 8; i += 2) {
-    most_brighter = std::min(most_brighter, std::max(brighter[i], brighter[i + 8]));
-    most_darker = std::min(most_darker, std::max(darker[i], darker[i + 8]));
-  }
-  int score = 0;
-  if (most_brighter > threshold) score = BestArc(brighter);
-  if (most_darker > threshold) score = std::max(score, BestArc(darker));
+  const int score = std::max(BestArc(brighter), BestArc(darker));
   return score > threshold ? score : 0;
 }
 
@@ -62,6 +67,31 @@ int FindMaxima(const std::uint8_t* above, const std::uint8_t* row, const std::ui
     if (score > before && score >= after) columns[count++] = static_cast<std::uint16_t>(x);
   }
   return count;
+}
+
+void SmoothRow(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int n,
+               std::uint8_t* out) {
+  const auto column = [&](int x) { return above[x] + 2 * row[x] + below[x]; };
+  for (int x = 0; x < n; ++x) {
+    const int sum = column(x - 1) + 2 * column(x) + column(x + 1);
+    out[x] = static_cast<std::uint8_t>((sum + 8) >> 4);
+  }
+}
+
+StructureTensor TensorOf(const std::uint8_t* centre, std::ptrdiff_t stride) {
+  StructureTensor tensor;
+  for (int y = -3; y <= 3; ++y) {
+    for (int x = -3; x <= 3; ++x) {
+      const std::uint8_t* p = centre + y * stride + x;
+      const std::uint8_t *above = p - stride, *below = p + stride;
+      const int dx = above[1] - above[-1] + 2 * (p[1] - p[-1]) + below[1] - below[-1];
+      const int dy = below[-1] - above[-1] + 2 * (below[0] - above[0]) + below[1] - above[1];
+      tensor.xx += dx * dx;
+      tensor.yy += dy * dy;
+      tensor.xy += dx * dy;
+    }
+  }
+  return tensor;
 }
 
 // exp(-i^2 / (2 * 2^2)) for i = 0..3, normalised to a sum of 128 over the seven taps.
@@ -143,8 +173,17 @@ Descriptor Describe(const PatchBuffer& patch, const RotatedPattern& pattern) {
 }  // namespace
 
 const OrbKernels& PortableOrbKernels() {
-  static constexpr OrbKernels kKernels = {FastScores, FindMaxima, BlurColumns, BlurRow, ResampleRow,
-                                          MixRows,    Centroid,   CopyPatch,   Describe};
+  static constexpr OrbKernels kKernels = {.smooth_row = SmoothRow,
+                                          .fast_scores = FastScores,
+                                          .find_maxima = FindMaxima,
+                                          .structure_tensor = TensorOf,
+                                          .blur_columns = BlurColumns,
+                                          .blur_row = BlurRow,
+                                          .resample_row = ResampleRow,
+                                          .mix_rows = MixRows,
+                                          .centroid = Centroid,
+                                          .copy_patch = CopyPatch,
+                                          .describe = Describe};
   return kKernels;
 }
 
