@@ -18,6 +18,9 @@ namespace {
 constexpr int kMargin = kPatchRadius + 1;
 /// Cells that take weak corners where they have no strong one [px of the level].
 constexpr int kCellSize = 30;
+/// A level's share of the key points goes with its scale to this power. Equal density in the
+/// pyramid is -2; coarse corners are found again more often, fine ones are placed better.
+constexpr double kShareExponent = -0.75;
 /// Harris scores are counted in this part of a grey level.
 constexpr double kResponseSteps = 32;
 
@@ -111,7 +114,7 @@ std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded) {
     DropWeakWhereStrong(corners, options_.fast_threshold, kCellSize);
     RankByHarris(octave);
     available[octave] = static_cast<int>(corners.size());
-    weights[octave] = 1 / ScaleOf(octave);
+    weights[octave] = std::pow(ScaleOf(octave), kShareExponent);
   }
   return AllocateCounts(available, weights, options_.count);
 }

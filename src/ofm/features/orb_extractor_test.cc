@@ -120,13 +120,14 @@ int OccupiedCells(const std::vector<Eigen::Vector2f>& pixels) {
   return static_cast<int>(cells.size());
 }
 
-TEST(OrbExtractor, CoversMoreOfTheImageThanOpenCv) {
+TEST(OrbExtractor, WithFullEvennessCoversMoreOfTheImageThanOpenCv) {
   // Strong texture on the left, the same with a quarter of the contrast on the right.
   cv::Mat image = TexturedImage(480, 360);
   cv::Mat right = image.colRange(200, 480);
   right.convertTo(right, CV_8U, 0.25, 90);
   OrbOptions options;
   options.count = 500;
+  options.evenness = 1;
   std::vector<Eigen::Vector2f> ours, theirs;
   for (const Keypoint& k : OrbExtractor(options).Extract(image).keypoints) ours.push_back(k.pixel);
   std::vector<cv::KeyPoint> keypoints;
@@ -173,35 +174,34 @@ TEST(OrbExtractor, ScaleOfAnOctaveIsAPowerOfTheFactor) {
   EXPECT_FLOAT_EQ(extractor.ScaleOf(3), 1.728f);
 }
 
-/// A bright quadrant whose corner lies at `corner`, exactly rendered and smoothed.
-cv::Mat CornerImage(const Eigen::Vector2d& corner) {
-  constexpr int kSize = 96, kFine = 8;
-  cv::Mat fine(kSize * kFine, kSize * kFine, CV_8UC1, cv::Scalar(60));
-  const auto edge = [](double place) {
-    return static_cast<int>(std::lround((place + 0.5) * kFine));
-  };
-  fine(cv::Range(edge(corner.y()), fine.rows), cv::Range(edge(corner.x()), fine.cols)).setTo(200);
-  cv::Mat image;
-  cv::resize(fine, image, {kSize, kSize}, 0, 0, cv::INTER_AREA);
-  cv::GaussianBlur(image, image, {}, 1.0);
+/// Rendered eight times finer, moved there, and brought to size.
+cv::Mat TextureMovedBy(int eighths) {
+  cv::Mat fine, image;
+  cv::resize(TexturedImage(300, 240), fine, {}, 8, 8, cv::INTER_CUBIC);
+  cv::resize(fine(cv::Rect(64 - eighths, 64, 2240, 1760)), image, {280, 220}, 0, 0, cv::INTER_AREA);
   return image;
 }
 
-TEST(OrbExtractor, KeypointsMoveWithACornerBySubPixels) {
-  OrbOptions options;
-  options.levels = 1;
-  options.count = 50;
-  OrbExtractor extractor(options);
-  const auto strongest = [&](const Eigen::Vector2d& corner) {
-    const Features features = extractor.Extract(CornerImage(corner));
-    return std::ranges::max_element(features.keypoints, {}, &Keypoint::response)->pixel;
-  };
-  const Eigen::Vector2f at_zero = strongest({48, 48});
-  for (const double shift : {0.125, 0.25, 0.375, 0.5, 0.75, 1.0}) {
-    const Eigen::Vector2f moved = strongest({48 + shift, 48 - shift}) - at_zero;
-    EXPECT_NEAR(moved.x(), shift, 0.15);
-    EXPECT_NEAR(moved.y(), -shift, 0.15);
+TEST(OrbExtractor, KeypointsMoveWithTheTextureBySubPixels) {
+  OrbExtractor extractor{OrbOptions{}};
+  const Features still = extractor.Extract(TextureMovedBy(0));
+  const Features moved = extractor.Extract(TextureMovedBy(4));
+  std::vector<double> errors_px, errors_of_whole_pixels_px;
+  for (const FeatureMatch& match : MatchBruteForce(still.descriptors, moved.descriptors)) {
+    const Keypoint &p = still.keypoints[match.a], &q = moved.keypoints[match.b];
+    const Eigen::Vector2f move = q.pixel - p.pixel;
+    if (p.octave != 0 || q.octave != 0 || move.norm() > 2) continue;
+    errors_px.push_back(std::abs(move.x() - 0.5));
+    errors_of_whole_pixels_px.push_back(
+        std::abs(std::round(q.pixel.x()) - std::round(p.pixel.x()) - 0.5));
   }
+  ASSERT_GT(errors_px.size(), 50u);
+  const auto median = [](std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + static_cast<int>(values.size() / 2));
+    return values[values.size() / 2];
+  };
+  EXPECT_LT(median(errors_px), 0.15);
+  EXPECT_LT(median(errors_px), 0.5 * median(errors_of_whole_pixels_px));
 }
 
 TEST(OrbExtractor, TinyAndFlatImagesHaveNoFeatures) {

@@ -1,6 +1,7 @@
 #include "ofm/features/orb_kernels.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 namespace ofm {
@@ -11,39 +12,38 @@ constexpr int kCircle[16][2] = {{0, -3}, {1, -3},  {2, -2},  {3, -1}, {3, 0},  {
                                 {2, 2},  {1, 3},   {0, 3},   {-1, 3}, {-2, 2}, {-3, 1},
                                 {-3, 0}, {-3, -1}, {-2, -2}, {-1, -3}};
 
-/// The largest difference that all of nine neighbours on the circle reach.
+/// The largest difference that all of nine neighbours on the circle reach. Arcs that begin at k - 1
+/// and k (k even) share the eight from k.
 int BestArc(const std::array<int, 16>& difference) {
+  std::array<int, 8> two, four;
+  for (int i = 0; i < 8; ++i) two[i] = std::min(difference[2 * i], difference[2 * i + 1]);
+  for (int i = 0; i < 8; ++i) four[i] = std::min(two[i], two[(i + 1) & 7]);
   int best = 0;
-  for (int first = 0; first < 16; ++first) {
-    int least = difference[first];
-    for (int i = 1; i < 9; ++i) least = std::min(least, difference[(first + i) & 15]);
-    best = std::max(best, least);
+  for (int i = 0; i < 8; ++i) {
+    const int ends = std::max(difference[(2 * i + 8) & 15], difference[(2 * i + 15) & 15]);
+    best = std::max(best, std::min({four[i], four[(i + 2) & 7], ends}));
   }
   return best;
 }
 
-/// Whether an arc over the threshold can exist: it holds one of each two opposite pixels.
-bool MayBeCorner(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
-                 int threshold) {
+int FastScore(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
+              int threshold) {
+  // An arc of nine holds one of each two opposite pixels.
   const int bright = *centre + threshold, dark = *centre - threshold;
   bool may_be_brighter = true, may_be_darker = true;
-  for (int i = 0; i < 8 && (may_be_brighter || may_be_darker); i += 2) {
+  for (int i = 0; i < 8; ++i) {
     const int a = centre[circle[i]], b = centre[circle[i + 8]];
     may_be_brighter = may_be_brighter && std::max(a, b) > bright;
     may_be_darker = may_be_darker && std::min(a, b) < dark;
+    if (!may_be_brighter && !may_be_darker) return 0;
   }
-  return may_be_brighter || may_be_darker;
-}
-
-int FastScore(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
-              int threshold) {
-  if (!MayBeCorner(centre, circle, threshold)) return 0;
-  std::array<int, 16> brighter, darker;
-  for (int i = 0; i < 16; ++i) {
-    brighter[i] = centre[circle[i]] - *centre;
-    darker[i] = -brighter[i];
+  int score = 0;
+  std::array<int, 16> difference;
+  for (const int sign : {1, -1}) {
+    if (!(sign > 0 ? may_be_brighter : may_be_darker)) continue;
+    for (int i = 0; i < 16; ++i) difference[i] = sign * (centre[circle[i]] - *centre);
+    score = std::max(score, BestArc(difference));
   }
-  const int score = std::max(BestArc(brighter), BestArc(darker));
   return score > threshold ? score : 0;
 }
 
@@ -135,11 +135,22 @@ void MixRows(const std::int16_t* a, const std::int16_t* b, int weight, int n, st
   }
 }
 
+/// Half the width of the disc at each distance from its middle row.
+constexpr auto kDiscHalfWidths = [] {
+  std::array<int, kPatchRadius + 1> widths{};
+  for (int dy = 0; dy <= kPatchRadius; ++dy) {
+    while ((widths[dy] + 1) * (widths[dy] + 1) + dy * dy <= kPatchRadius * kPatchRadius) {
+      ++widths[dy];
+    }
+  }
+  return widths;
+}();
+
 CentroidMoments Centroid(const std::uint8_t* centre, std::ptrdiff_t stride) {
   CentroidMoments moments;
   for (int dy = -kPatchRadius; dy <= kPatchRadius; ++dy) {
     const std::uint8_t* row = centre + dy * stride;
-    const int half_width = DiscHalfWidth(dy);
+    const int half_width = kDiscHalfWidths[std::abs(dy)];
     int sum = 0;
     for (int dx = -half_width; dx <= half_width; ++dx) {
       sum += row[dx];
@@ -190,12 +201,6 @@ const OrbKernels& PortableOrbKernels() {
 const OrbKernels& BestOrbKernels() {
   const OrbKernels* avx2 = Avx2OrbKernels();
   return avx2 ? *avx2 : PortableOrbKernels();
-}
-
-int DiscHalfWidth(int dy) {
-  int dx = 0;
-  while ((dx + 1) * (dx + 1) + dy * dy <= kPatchRadius * kPatchRadius) ++dx;
-  return dx;
 }
 
 }  // namespace ofm

@@ -81,7 +81,4 @@ const OrbKernels* Avx2OrbKernels();
 /// The fastest that this processor runs. All give the same results.
 const OrbKernels& BestOrbKernels();
 
-/// Half the width of the disc of kPatchRadius at a distance of `dy` rows from its centre.
-int DiscHalfWidth(int dy);
-
 }  // namespace ofm
