@@ -1,5 +1,6 @@
 #include "feature_quality.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -72,14 +73,34 @@ std::vector<double> FittedErrors(const PinholeCamera& camera,
   return errors;
 }
 
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+/// Information on (translation, rotation) of one pixel with a noise of `sigma_px`.
+Eigen::Matrix<double, 6, 6> Information(const PinholeCamera& camera, const Eigen::Vector3d& point,
+                                        double sigma_px) {
+  const double z = point.z();
+  Eigen::Matrix<double, 2, 3> projection;
+  projection << camera.fx / z, 0, -camera.fx * point.x() / (z * z), 0, camera.fy / z,
+      -camera.fy * point.y() / (z * z);
+  Eigen::Matrix<double, 2, 6> jacobian;
+  jacobian << projection, -projection * SkewSymmetric(point);
+  return jacobian.transpose() * jacobian / (sigma_px * sigma_px);
+}
+
+double PositionSigma_mm(const Eigen::Matrix<double, 6, 6>& information) {
+  const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(information);
+  if (!lu.isInvertible()) return 1e6;
+  return 1e3 * std::sqrt(lu.inverse().topLeftCorner<3, 3>().trace());
+}
+
 }  // namespace
 
-double FeatureQuality::MedianError_px() const {
-  if (errors_px.empty()) return 0;
-  std::vector<double> sorted = errors_px;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  return sorted[sorted.size() / 2];
-}
+double FeatureQuality::MedianError_px() const { return Median(errors_px); }
+double FeatureQuality::MedianPoseSigma_mm() const { return Median(pose_sigmas_mm); }
 
 void AddPair(const PinholeCamera& camera, const RgbdSample& a, const RgbdSample& b,
              const Features& features_a, const Features& features_b, double scale_factor,
@@ -103,6 +124,7 @@ void AddPair(const PinholeCamera& camera, const RgbdSample& a, const RgbdSample&
   ++quality.pairs;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   const MatchOptions nearest{.max_distance = 256, .max_ratio = 1, .cross_check = true};
   for (const FeatureMatch& match : MatchBruteForce(descriptors, features_b.descriptors, nearest)) {
     const VisiblePoint& point = visible[match.a];
@@ -110,9 +132,11 @@ void AddPair(const PinholeCamera& camera, const RgbdSample& a, const RgbdSample&
     ++quality.matches;
     if ((pixel - point.pixel_in_b).norm() > tolerance_px(point.index)) continue;
     ++quality.correct;
+    information += Information(camera, point.point_in_a, tolerance_px(point.index) / kTolerance_px);
     points.emplace_back(point.point_in_a.x(), point.point_in_a.y(), point.point_in_a.z());
     pixels.emplace_back(pixel.x(), pixel.y());
   }
+  quality.pose_sigmas_mm.push_back(PositionSigma_mm(information));
   for (const double error_px : FittedErrors(camera, points, pixels)) {
     quality.errors_px.push_back(error_px);
   }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "ofm/features/features.h"
 #include "rgbd_samples.h"
@@ -20,6 +21,9 @@ struct FeatureQuality {
   int pairs = 0;
   std::vector<double> errors_px;  ///< of the correct ones, after the best pose between the views
 
+  std::vector<double> pose_sigmas_mm;  ///< of the camera's place by the correct ones, 1 px x scale
+
+  double MedianPoseSigma_mm() const;
   double Repeatability() const { return visible ? 1.0 * repeated / visible : 0; }
   double CorrectRatio() const { return matches ? 1.0 * correct / matches : 0; }
   double CorrectPerPair() const { return pairs ? 1.0 * correct / pairs : 0; }

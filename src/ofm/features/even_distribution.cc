@@ -1,7 +1,6 @@
 #include "ofm/features/even_distribution.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -26,11 +25,14 @@ void DropWeakWhereStrong(std::vector<Corner>& corners, int strong_score, int cel
 }
 
 void EvenSelector::SortByScore(std::span<const Corner> corners) {
-  std::array<int, 257> starts{};
+  std::vector<int> starts(kMaxCornerScore + 2, 0);
+  const auto rank = [](const Corner& corner) {
+    return kMaxCornerScore - std::min<int>(corner.score, kMaxCornerScore);
+  };
   int right = 0, bottom = 0;
   left_ = top_ = 1 << 16;
   for (const Corner& corner : corners) {
-    ++starts[256 - std::min<int>(corner.score, 255)];
+    ++starts[rank(corner) + 1];
     left_ = std::min<int>(left_, corner.x);
     top_ = std::min<int>(top_, corner.y);
     right = std::max<int>(right, corner.x);
@@ -41,7 +43,7 @@ void EvenSelector::SortByScore(std::span<const Corner> corners) {
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
   sorted_.resize(corners.size());
   for (const Corner& corner : corners) {
-    sorted_[starts[255 - std::min<int>(corner.score, 255)]++] = corner;
+    sorted_[starts[rank(corner)]++] = corner;
   }
 }
 
@@ -65,14 +67,13 @@ int EvenSelector::Cover(int cell_size, int count_limit) {
   return static_cast<int>(kept_.size());
 }
 
-std::vector<Corner> EvenSelector::Select(std::span<const Corner> corners, int count) {
-  if (count <= 0 || corners.empty()) return {};
-  SortByScore(corners);
-  if (static_cast<int>(sorted_.size()) <= count) return sorted_;
+/// Sets best_ to indices of `count` of sorted_, of which there are more.
+void EvenSelector::ChooseForCoverage(int count) {
   // The largest cell that leaves enough; 0 stands for no suppression at all.
   int enough = 0, too_large = std::max(width_, height_) + 1;
   const int count_limit = count + count / 10;
-  best_.clear();
+  best_.resize(count);
+  std::iota(best_.begin(), best_.end(), 0);
   while (too_large - enough > 1) {
     const int cell_size = (enough + too_large) / 2;
     const int kept = Cover(cell_size, count_limit);
@@ -84,37 +85,46 @@ std::vector<Corner> EvenSelector::Select(std::span<const Corner> corners, int co
     best_ = kept_;
     if (kept <= count_limit) break;
   }
-  if (best_.empty()) {
-    best_.resize(count);
-    std::iota(best_.begin(), best_.end(), 0);
-  }
+  best_.resize(count);
+}
+
+std::vector<Corner> EvenSelector::Select(std::span<const Corner> corners, int count,
+                                         double evenness) {
+  if (count <= 0 || corners.empty()) return {};
+  SortByScore(corners);
+  if (static_cast<int>(sorted_.size()) <= count) return sorted_;
+  ChooseForCoverage(static_cast<int>(std::lround(std::clamp(evenness, 0.0, 1.0) * count)));
+  is_chosen_.assign(sorted_.size(), 0);
+  for (const int i : best_) is_chosen_[i] = 1;
+  int left = count - static_cast<int>(best_.size());
   std::vector<Corner> selected;
-  for (int i = 0; i < count; ++i) selected.push_back(sorted_[best_[i]]);
+  selected.reserve(count);
+  for (std::size_t i = 0; i < sorted_.size() && static_cast<int>(selected.size()) < count; ++i) {
+    if (is_chosen_[i] == 0 && left-- <= 0) continue;
+    selected.push_back(sorted_[i]);
+  }
   return selected;
 }
 
 std::vector<int> AllocateCounts(std::span<const int> available, std::span<const double> weights,
                                 int total) {
   OFM_CHECK(available.size() == weights.size());
+  // In order of how soon a growing total exhausts them: what one lacks is then known before the
+  // shares of those after it.
+  std::vector<std::size_t> order(available.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return available[i] * weights[j] < available[j] * weights[i];
+  });
+  double weight_left = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<int> counts(available.size(), 0);
-  // From the last list to the first, each gets its share of what is left; what the first ones lack
-  // goes round again.
-  for (bool has_progress = true; has_progress && total > 0;) {
-    has_progress = false;
-    double weight_left = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      if (counts[i] < available[i]) weight_left += weights[i];
-    }
-    for (std::size_t i = weights.size(); i-- > 0;) {
-      if (counts[i] >= available[i]) continue;
-      const int share = static_cast<int>(std::ceil(total * weights[i] / weight_left));
-      const int given = std::min({share, available[i] - counts[i], total});
-      weight_left -= weights[i];
-      counts[i] += given;
-      total -= given;
-      has_progress = has_progress || given > 0;
-      if (total == 0) break;
-    }
+  for (const std::size_t i : order) {
+    const bool is_last = i == order.back();
+    const int share =
+        is_last ? total : static_cast<int>(std::lround(total * weights[i] / weight_left));
+    counts[i] = std::min(share, available[i]);
+    total -= counts[i];
+    weight_left -= weights[i];
   }
   return counts;
 }

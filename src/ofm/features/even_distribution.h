@@ -18,22 +18,27 @@ struct Corner {
 /// the order.
 void DropWeakWhereStrong(std::vector<Corner>& corners, int strong_score, int cell_size);
 
-/// Suppression by square covering (Bailo et al., "Efficient adaptive non-maximal suppression
-/// algorithms for homogeneous spatial keypoint distribution", 2018): going from the strongest down,
-/// a corner is kept unless a kept one lies within a radius, which is searched such that about
-/// `count` remain; of these, the `count` strongest. Keeps buffers between calls.
+/// Largest score of a corner that EvenSelector tells apart.
+inline constexpr int kMaxCornerScore = 4095;
+
+/// Chooses some corners for even coverage and the others for their strength. Coverage is by
+/// suppression in squares (Bailo et al., "Efficient adaptive non-maximal suppression algorithms for
+/// homogeneous spatial keypoint distribution", 2018): going from the strongest down, a corner is
+/// kept unless a kept one lies within a radius, which is searched such that as many remain as are
+/// wanted. Keeps buffers between calls.
 class EvenSelector {
  public:
-  /// The corners in decreasing order of score (then row by row); exactly `count` of them where
-  /// there are as many.
-  std::vector<Corner> Select(std::span<const Corner> corners, int count);
+  /// `count` corners, or all where there are fewer, in decreasing order of score (then in the order
+  /// given). The share `evenness` (0 to 1) of them is chosen for coverage.
+  std::vector<Corner> Select(std::span<const Corner> corners, int count, double evenness);
 
  private:
   void SortByScore(std::span<const Corner> corners);
   int Cover(int cell_size, int count_limit);
+  void ChooseForCoverage(int count);
 
   std::vector<Corner> sorted_;
-  std::vector<std::uint8_t> is_covered_;
+  std::vector<std::uint8_t> is_covered_, is_chosen_;
   std::vector<int> kept_, best_;
   int left_ = 0, top_ = 0, width_ = 0, height_ = 0;
 };

@@ -36,9 +36,21 @@ void ImagePyramid::Build(const cv::Mat& gray) {
     images_[level].Resize(size_at(gray.cols, level), size_at(gray.rows, level));
     smooth_[level].Resize(images_[level].width(), images_[level].height());
     if (level > 0) Downscale(images_[level - 1], images_[level]);
-    for (int y = 0; level == 0 && y < gray.rows; ++y) {
-      std::memcpy(images_[0].Row(y), gray.ptr(y), gray.cols);
-    }
+    if (level == 0) SmoothLevelZero(gray);
+  }
+}
+
+void ImagePyramid::SmoothLevelZero(const cv::Mat& gray) {
+  const int width = gray.cols, height = gray.rows;
+  raw_.Resize(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::memcpy(raw_.Row(y), gray.ptr(y), width);
+    raw_.Row(y)[-1] = raw_.Row(y)[0];
+    raw_.Row(y)[width] = raw_.Row(y)[width - 1];
+  }
+  for (int y = 0; y < height; ++y) {
+    kernels_.smooth_row(raw_.Row(std::max(y - 1, 0)), raw_.Row(y),
+                        raw_.Row(std::min(y + 1, height - 1)), width, images_[0].Row(y));
   }
 }
 

@@ -29,7 +29,9 @@ class PaddedImage {
 };
 
 /// Levels of sizes width / scale_factor^level. Pixel x of level l lies at
-/// (x + 1/2) * scale_factor^l - 1/2 of the full image. Keeps its buffers between calls.
+/// (x + 1/2) * scale_factor^l - 1/2 of the full image. Level 0 is smoothed by a 3 x 3 binomial
+/// against the sensor's noise, which makes corners found in it easier to find again. Keeps its
+/// buffers between calls.
 class ImagePyramid {
  public:
   /// `scale_factor` in (1, 2]. Levels of under 1 pixel are not made.
@@ -50,12 +52,14 @@ class ImagePyramid {
     double weight;  ///< of the right or lower one
   };
   Column SourceOf(int target, int size) const;
+  void SmoothLevelZero(const cv::Mat& gray);
   void PlanRows(int source_width, int target_width);
   void Downscale(const PaddedImage& source, PaddedImage& target);
 
   int max_levels_;
   double scale_factor_;
   const OrbKernels& kernels_;
+  PaddedImage raw_;  ///< the image as it came
   std::vector<PaddedImage> images_, smooth_;
   std::vector<ResampleBlock> blocks_;
   std::vector<std::int16_t> rows_[2];

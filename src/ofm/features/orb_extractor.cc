@@ -18,12 +18,29 @@ namespace {
 constexpr int kMargin = kPatchRadius + 1;
 /// Cells that take weak corners where they have no strong one [px of the level].
 constexpr int kCellSize = 30;
+/// A level's share of the key points goes with its scale to this power. Equal density in the
+/// pyramid is -2; coarse corners are found again more often, fine ones are placed better.
+constexpr double kShareExponent = -0.75;
+/// Harris scores are counted in this part of a grey level.
+constexpr double kResponseSteps = 32;
 
 float OrientationOf(const CentroidMoments& moments) {
   const float angle = std::atan2(static_cast<float>(moments.y), static_cast<float>(moments.x));
   constexpr float kTurn = 2 * std::numbers::pi_v<float>;
   const float positive = angle < 0 ? angle + kTurn : angle;
   return positive < kTurn ? positive : 0;
+}
+
+/// Fourth root of the Harris measure (Harris and Stephens 1988, k = 1/25) of gradients in grey
+/// levels per pixel, times kResponseSteps: FAST alone also answers to edges.
+std::uint16_t HarrisScore(const StructureTensor& tensor) {
+  constexpr double kPixels = 49, kSobelGain = 64;
+  const std::int64_t xx = tensor.xx, yy = tensor.yy, xy = tensor.xy;
+  const std::int64_t trace = xx + yy;
+  const double measure = static_cast<double>(xx * yy - xy * xy - trace * trace / 25);
+  const double root = std::sqrt(std::max(measure, 0.0)) / (kPixels * kSobelGain);
+  return static_cast<std::uint16_t>(
+      std::min<double>(std::lround(kResponseSteps * std::sqrt(root)), kMaxCornerScore));
 }
 
 bool IsExcluded(const cv::Mat& excluded, const Eigen::Vector2f& pixel) {
@@ -95,10 +112,19 @@ std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded) {
       });
     }
     DropWeakWhereStrong(corners, options_.fast_threshold, kCellSize);
+    RankByHarris(octave);
     available[octave] = static_cast<int>(corners.size());
-    weights[octave] = 1 / ScaleOf(octave);
+    weights[octave] = std::pow(ScaleOf(octave), kShareExponent);
   }
   return AllocateCounts(available, weights, options_.count);
+}
+
+void OrbExtractor::RankByHarris(int octave) {
+  const PaddedImage& image = workspace_->pyramid.image(octave);
+  for (Corner& corner : workspace_->detectors[octave].corners()) {
+    corner.score = HarrisScore(
+        workspace_->kernels.structure_tensor(image.Row(corner.y) + corner.x, image.stride()));
+  }
 }
 
 /// Adds the `count` best corners of a level.
@@ -107,13 +133,14 @@ void OrbExtractor::Describe(int octave, int count, const cv::Mat& excluded, Feat
   w.pyramid.Smooth(octave);
   const PaddedImage& image = w.pyramid.image(octave);
   const PaddedImage& smooth = w.pyramid.smooth(octave);
-  for (const Corner& corner : w.selector.Select(w.detectors[octave].corners(), count)) {
+  for (const Corner& corner :
+       w.selector.Select(w.detectors[octave].corners(), count, options_.evenness)) {
     const Eigen::Vector2f centre(corner.x, corner.y);
     Keypoint keypoint;
     keypoint.pixel = InFullImage(centre + w.detectors[octave].RefinedOffset(corner), octave);
     if (IsExcluded(excluded, keypoint.pixel)) keypoint.pixel = InFullImage(centre, octave);
     keypoint.octave = octave;
-    keypoint.response = corner.score;
+    keypoint.response = static_cast<float>(corner.score / kResponseSteps);
     keypoint.angle_rad =
         OrientationOf(w.kernels.centroid(image.Row(corner.y) + corner.x, image.stride()));
     w.kernels.copy_patch(smooth.Row(corner.y) + corner.x, smooth.stride(), w.patch);

@@ -17,6 +17,7 @@ struct OrbOptions {
   double scale_factor = 1.2;   ///< between levels
   int fast_threshold = 20;     ///< grey levels
   int min_fast_threshold = 7;  ///< grey levels, where a cell is empty at fast_threshold
+  double evenness = 0.1;       ///< share chosen to cover the image; the others are the strongest
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("count", self.count, "key points wanted per image", Range{50, 20000});
@@ -25,6 +26,9 @@ struct OrbOptions {
     visit("fast_threshold", self.fast_threshold, "FAST threshold [grey levels]", Range{1, 255});
     visit("min_fast_threshold", self.min_fast_threshold,
           "FAST threshold where a cell is empty [grey levels]", Range{1, 255});
+    visit("evenness", self.evenness,
+          "share of the key points chosen to cover the image; the others are the strongest",
+          Range{0, 1});
   }
 };
 
@@ -52,6 +56,7 @@ class OrbExtractor {
 
   Eigen::Vector2f InFullImage(const Eigen::Vector2f& pixel, int octave) const;
   std::vector<int> DetectOnAllLevels(const cv::Mat& excluded);
+  void RankByHarris(int octave);
   void Describe(int octave, int count, const cv::Mat& excluded, Features& features);
 
   OrbOptions options_;

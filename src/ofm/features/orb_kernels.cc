@@ -1,6 +1,7 @@
 #include "ofm/features/orb_kernels.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 namespace ofm {
@@ -11,34 +12,38 @@ constexpr int kCircle[16][2] = {{0, -3}, {1, -3},  {2, -2},  {3, -1}, {3, 0},  {
                                 {2, 2},  {1, 3},   {0, 3},   {-1, 3}, {-2, 2}, {-3, 1},
                                 {-3, 0}, {-3, -1}, {-2, -2}, {-1, -3}};
 
-/// The largest difference that all of nine neighbours on the circle reach.
+/// The largest difference that all of nine neighbours on the circle reach. Arcs that begin at k - 1
+/// and k (k even) share the eight from k.
 int BestArc(const std::array<int, 16>& difference) {
+  std::array<int, 8> two, four;
+  for (int i = 0; i < 8; ++i) two[i] = std::min(difference[2 * i], difference[2 * i + 1]);
+  for (int i = 0; i < 8; ++i) four[i] = std::min(two[i], two[(i + 1) & 7]);
   int best = 0;
-  for (int first = 0; first < 16; ++first) {
-    int least = difference[first];
-    for (int i = 1; i < 9; ++i) least = std::min(least, difference[(first + i) & 15]);
-    best = std::max(best, least);
+  for (int i = 0; i < 8; ++i) {
+    const int ends = std::max(difference[(2 * i + 8) & 15], difference[(2 * i + 15) & 15]);
+    best = std::max(best, std::min({four[i], four[(i + 2) & 7], ends}));
   }
   return best;
 }
 
 int FastScore(const std::uint8_t* centre, const std::array<std::ptrdiff_t, 16>& circle,
               int threshold) {
-  std::array<int, 16> brighter, darker;
-  for (int i = 0; i < 16; ++i) {
-    const int difference = centre[circle[i]] - *centre;
-    brighter[i] = std::max(difference, 0);
-    darker[i] = std::max(-difference, 0);
-  }
   // An arc of nine holds one of each two opposite pixels.
-  int most_brighter = 255, most_darker = 255;
-  for (int i = 0; i < 8; i += 2) {
-    most_brighter = std::min(most_brighter, std::max(brighter[i], brighter[i + 8]));
-    most_darker = std::min(most_darker, std::max(darker[i], darker[i + 8]));
+  const int bright = *centre + threshold, dark = *centre - threshold;
+  bool may_be_brighter = true, may_be_darker = true;
+  for (int i = 0; i < 8; ++i) {
+    const int a = centre[circle[i]], b = centre[circle[i + 8]];
+    may_be_brighter = may_be_brighter && std::max(a, b) > bright;
+    may_be_darker = may_be_darker && std::min(a, b) < dark;
+    if (!may_be_brighter && !may_be_darker) return 0;
   }
   int score = 0;
-  if (most_brighter > threshold) score = BestArc(brighter);
-  if (most_darker > threshold) score = std::max(score, BestArc(darker));
+  std::array<int, 16> difference;
+  for (const int sign : {1, -1}) {
+    if (!(sign > 0 ? may_be_brighter : may_be_darker)) continue;
+    for (int i = 0; i < 16; ++i) difference[i] = sign * (centre[circle[i]] - *centre);
+    score = std::max(score, BestArc(difference));
+  }
   return score > threshold ? score : 0;
 }
 
@@ -62,6 +67,31 @@ int FindMaxima(const std::uint8_t* above, const std::uint8_t* row, const std::ui
     if (score > before && score >= after) columns[count++] = static_cast<std::uint16_t>(x);
   }
   return count;
+}
+
+void SmoothRow(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int n,
+               std::uint8_t* out) {
+  const auto column = [&](int x) { return above[x] + 2 * row[x] + below[x]; };
+  for (int x = 0; x < n; ++x) {
+    const int sum = column(x - 1) + 2 * column(x) + column(x + 1);
+    out[x] = static_cast<std::uint8_t>((sum + 8) >> 4);
+  }
+}
+
+StructureTensor TensorOf(const std::uint8_t* centre, std::ptrdiff_t stride) {
+  StructureTensor tensor;
+  for (int y = -3; y <= 3; ++y) {
+    for (int x = -3; x <= 3; ++x) {
+      const std::uint8_t* p = centre + y * stride + x;
+      const std::uint8_t *above = p - stride, *below = p + stride;
+      const int dx = above[1] - above[-1] + 2 * (p[1] - p[-1]) + below[1] - below[-1];
+      const int dy = below[-1] - above[-1] + 2 * (below[0] - above[0]) + below[1] - above[1];
+      tensor.xx += dx * dx;
+      tensor.yy += dy * dy;
+      tensor.xy += dx * dy;
+    }
+  }
+  return tensor;
 }
 
 // exp(-i^2 / (2 * 2^2)) for i = 0..3, normalised to a sum of 128 over the seven taps.
@@ -105,11 +135,22 @@ void MixRows(const std::int16_t* a, const std::int16_t* b, int weight, int n, st
   }
 }
 
+/// Half the width of the disc at each distance from its middle row.
+constexpr auto kDiscHalfWidths = [] {
+  std::array<int, kPatchRadius + 1> widths{};
+  for (int dy = 0; dy <= kPatchRadius; ++dy) {
+    while ((widths[dy] + 1) * (widths[dy] + 1) + dy * dy <= kPatchRadius * kPatchRadius) {
+      ++widths[dy];
+    }
+  }
+  return widths;
+}();
+
 CentroidMoments Centroid(const std::uint8_t* centre, std::ptrdiff_t stride) {
   CentroidMoments moments;
   for (int dy = -kPatchRadius; dy <= kPatchRadius; ++dy) {
     const std::uint8_t* row = centre + dy * stride;
-    const int half_width = DiscHalfWidth(dy);
+    const int half_width = kDiscHalfWidths[std::abs(dy)];
     int sum = 0;
     for (int dx = -half_width; dx <= half_width; ++dx) {
       sum += row[dx];
@@ -143,20 +184,23 @@ Descriptor Describe(const PatchBuffer& patch, const RotatedPattern& pattern) {
 }  // namespace
 
 const OrbKernels& PortableOrbKernels() {
-  static constexpr OrbKernels kKernels = {FastScores, FindMaxima, BlurColumns, BlurRow, ResampleRow,
-                                          MixRows,    Centroid,   CopyPatch,   Describe};
+  static constexpr OrbKernels kKernels = {.smooth_row = SmoothRow,
+                                          .fast_scores = FastScores,
+                                          .find_maxima = FindMaxima,
+                                          .structure_tensor = TensorOf,
+                                          .blur_columns = BlurColumns,
+                                          .blur_row = BlurRow,
+                                          .resample_row = ResampleRow,
+                                          .mix_rows = MixRows,
+                                          .centroid = Centroid,
+                                          .copy_patch = CopyPatch,
+                                          .describe = Describe};
   return kKernels;
 }
 
 const OrbKernels& BestOrbKernels() {
   const OrbKernels* avx2 = Avx2OrbKernels();
   return avx2 ? *avx2 : PortableOrbKernels();
-}
-
-int DiscHalfWidth(int dy) {
-  int dx = 0;
-  while ((dx + 1) * (dx + 1) + dy * dy <= kPatchRadius * kPatchRadius) ++dx;
-  return dx;
 }
 
 }  // namespace ofm

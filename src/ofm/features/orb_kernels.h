@@ -35,7 +35,17 @@ using RotatedPattern = std::array<std::array<std::uint16_t, 2>, 256>;
 /// 31 rows of 32 bytes about a key point; the centre is at row and column kPatchRadius.
 using PatchBuffer = std::array<std::uint8_t, 32 * (2 * kPatchRadius + 1)>;
 
+/// Sums over the 7 x 7 pixels about a corner of the products of the Sobel gradients there (8 times
+/// grey levels per pixel).
+struct StructureTensor {
+  int xx = 0, yy = 0, xy = 0;
+  bool operator==(const StructureTensor&) const = default;
+};
+
 struct OrbKernels {
+  /// 3 x 3 binomial smoothing of `n` pixels of a row; reads one pixel before and after.
+  void (*smooth_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                     int n, std::uint8_t* out);
   /// FAST-9-16 scores (Rosten and Drummond, ECCV 2006) of `n` pixels from `row`: the largest
   /// difference d for which nine neighbours on the circle are all brighter by d or all darker by d,
   /// 0 where that is not over `threshold`. Reads 3 rows and columns about.
@@ -45,6 +55,7 @@ struct OrbKernels {
   /// (over those before them, so that one of equals remains); returns how many.
   int (*find_maxima)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
                      int n, std::uint16_t* columns);
+  StructureTensor (*structure_tensor)(const std::uint8_t* centre, std::ptrdiff_t stride);
   /// 7-tap Gaussian of sigma 2 down the columns of seven rows.
   void (*blur_columns)(const std::array<const std::uint8_t*, 7>& rows, int n, std::uint8_t* out);
   /// The same along a row; reads 3 pixels before and after.
@@ -69,8 +80,5 @@ const OrbKernels& PortableOrbKernels();
 const OrbKernels* Avx2OrbKernels();
 /// The fastest that this processor runs. All give the same results.
 const OrbKernels& BestOrbKernels();
-
-/// Half the width of the disc of kPatchRadius at a distance of `dy` rows from its centre.
-int DiscHalfWidth(int dy);
 
 }  // namespace ofm

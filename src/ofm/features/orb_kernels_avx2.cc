@@ -89,6 +89,64 @@ OFM_AVX2 int FindMaxima(const std::uint8_t* above, const std::uint8_t* row,
   return count;
 }
 
+OFM_AVX2 inline __m256i Load16(const std::uint8_t* p) {
+  return _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+OFM_AVX2 inline __m256i Weigh121(__m256i a, __m256i b, __m256i c) {
+  return _mm256_add_epi16(_mm256_add_epi16(a, c), _mm256_add_epi16(b, b));
+}
+
+OFM_AVX2 inline __m256i Smooth16(const std::uint8_t* above, const std::uint8_t* row,
+                                 const std::uint8_t* below) {
+  __m256i columns[3];
+  for (int i = 0; i < 3; ++i) {
+    columns[i] = Weigh121(Load16(above + i - 1), Load16(row + i - 1), Load16(below + i - 1));
+  }
+  const __m256i sum = Weigh121(columns[0], columns[1], columns[2]);
+  return _mm256_srli_epi16(_mm256_add_epi16(sum, _mm256_set1_epi16(8)), 4);
+}
+
+OFM_AVX2 void SmoothRow(const std::uint8_t* above, const std::uint8_t* row,
+                        const std::uint8_t* below, int n, std::uint8_t* out) {
+  for (int x = 0; x < n; x += 32) {
+    const __m256i packed =
+        _mm256_packus_epi16(Smooth16(above + x, row + x, below + x),
+                            Smooth16(above + x + 16, row + x + 16, below + x + 16));
+    Store(out + x, _mm256_permute4x64_epi64(packed, 0xd8));
+  }
+}
+
+OFM_AVX2 inline __m128i Load8(const std::uint8_t* p) {
+  return _mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+}
+OFM_AVX2 inline int SumOf32Bit(__m128i v) {
+  const __m128i two = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(two, _mm_shuffle_epi32(two, 0xb1)));
+}
+
+OFM_AVX2 StructureTensor TensorOf(const std::uint8_t* centre, std::ptrdiff_t stride) {
+  // Of each row: the difference and the 1 2 1 sum of its left, middle and right neighbours.
+  __m128i difference[9], sum[9];
+  for (int i = 0; i < 9; ++i) {
+    const std::uint8_t* p = centre + (i - 4) * stride - 3;
+    const __m128i left = Load8(p - 1), middle = Load8(p), right = Load8(p + 1);
+    difference[i] = _mm_sub_epi16(right, left);
+    sum[i] = _mm_add_epi16(_mm_add_epi16(left, right), _mm_add_epi16(middle, middle));
+  }
+  const __m128i seven = _mm_setr_epi16(-1, -1, -1, -1, -1, -1, -1, 0);
+  __m128i xx = _mm_setzero_si128(), yy = xx, xy = xx;
+  for (int i = 1; i < 8; ++i) {
+    const __m128i twice = _mm_add_epi16(difference[i], difference[i]);
+    const __m128i both = _mm_add_epi16(difference[i - 1], difference[i + 1]);
+    const __m128i dx = _mm_and_si128(_mm_add_epi16(twice, both), seven);
+    const __m128i dy = _mm_and_si128(_mm_sub_epi16(sum[i + 1], sum[i - 1]), seven);
+    xx = _mm_add_epi32(xx, _mm_madd_epi16(dx, dx));
+    yy = _mm_add_epi32(yy, _mm_madd_epi16(dy, dy));
+    xy = _mm_add_epi32(xy, _mm_madd_epi16(dx, dy));
+  }
+  return {SumOf32Bit(xx), SumOf32Bit(yy), SumOf32Bit(xy)};
+}
+
 /// a * weights[even] + b * weights[odd] of 32 pixels as 16-bit sums, in the order of unpacking.
 struct Sums {
   __m256i low, high;
@@ -178,9 +236,7 @@ constexpr DiscMasks MakeDiscMasks() {
 constexpr DiscMasks kDisc = MakeDiscMasks();
 
 OFM_AVX2 inline int SumOf32Bit(__m256i v) {
-  const __m128i four = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  const __m128i two = _mm_add_epi32(four, _mm_shuffle_epi32(four, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(two, _mm_shuffle_epi32(two, 0xb1)));
+  return SumOf32Bit(_mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1)));
 }
 
 OFM_AVX2 CentroidMoments Centroid(const std::uint8_t* centre, std::ptrdiff_t stride) {
@@ -211,7 +267,9 @@ OFM_AVX2 void CopyPatch(const std::uint8_t* centre, std::ptrdiff_t stride, Patch
 const OrbKernels* Avx2OrbKernels() {
   static const OrbKernels kKernels = [] {
     OrbKernels kernels = PortableOrbKernels();  // `describe` is scattered loads: nothing to gain
+    kernels.smooth_row = SmoothRow;
     kernels.fast_scores = FastScores;
+    kernels.structure_tensor = TensorOf;
     kernels.find_maxima = FindMaxima;
     kernels.blur_columns = BlurColumns;
     kernels.blur_row = BlurRow;
