@@ -52,7 +52,7 @@ struct DynamicsOptions {
   std::vector<std::string> dynamic_classes = {"person"};  ///< moving whatever they do
   int dilation_px = 7;                                    ///< radius by which their masks grow
   double exclusion_radius_px = 10;                        ///< around a point found moving by flow
-  EpipolarOptions epipolar;
+  EpipolarOptions epipolar = {};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

@@ -75,19 +75,18 @@ DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path
     throw Error(path, "OpenCV cannot load this network: " + Reason(exception));
   }
   if (output_names_.empty()) throw Error(path, "is a network without outputs; export it again");
+  Run(cv::Mat(input_, CV_8UC3, cv::Scalar::all(128)));
 }
 
-std::vector<cv::Mat> DnnNetwork::Forward(const cv::Mat& image) {
+void DnnNetwork::Run(const cv::Mat& image) {
   OFM_CHECK(image.type() == CV_8UC3 && image.size() == input_);
-  std::vector<cv::Mat> outputs;
   try {
     net_.setInput(cv::dnn::blobFromImage(image, 1.0 / 255, input_, cv::Scalar(), true));
-    net_.forward(outputs, output_names_);
+    net_.forward(outputs_, output_names_);
   } catch (const cv::Exception& exception) {
     throw Error(path_, fmt::format("OpenCV cannot run this network at {} x {} px: {}", input_.width,
                                    input_.height, Reason(exception)));
   }
-  return outputs;
 }
 
 }  // namespace ofm

@@ -28,16 +28,16 @@ inline EnumNameList<SegmenterKind> EnumNames(SegmenterKind) {
 
 struct PerceptionOptions {
   SegmenterKind segmenter = SegmenterKind::kNone;
-  std::string model;                  ///< path of the ONNX network
-  std::string class_names_file;       ///< one class name a line; empty = COCO's 80
-  std::string masks_folder;           ///< empty = "mask" in the sequence's folder
+  std::string model = {};             ///< path of the ONNX network
+  std::string class_names_file = {};  ///< one class name a line; empty = COCO's 80
+  std::string masks_folder = {};      ///< empty = "mask" in the sequence's folder
   std::string mask_class = "person";  ///< what the instances of masks_folder are
   double score_threshold = 0.25;      ///< least class probability of an instance
   double nms_threshold = 0.7;         ///< overlap (IoU) over which the weaker box is dropped
   int max_instances = 100;            ///< the most confident are kept
   int input_width = 0;                ///< of the network [px]; 0 = as the model file says
   int input_height = 0;               ///< of the network [px]; 0 = as the model file says
-  OpticalFlowOptions flow;
+  OpticalFlowOptions flow = {};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

@@ -8,20 +8,19 @@ namespace ofm {
 
 YoloSegSegmenter::YoloSegSegmenter(const YoloSegModel& model, const YoloDecoderOptions& options)
     : class_names_(model.class_names), options_(options), network_(model.path, model.input) {
-  Run(cv::Mat(network_.input_size(), CV_8UC3, cv::Scalar::all(114)));
+  Outputs();  // those of the trial run: a network of another layout is refused here
 }
 
 Segmentation YoloSegSegmenter::Segment(const RgbdFrame& frame) {
   OFM_CHECK(frame.color.type() == CV_8UC3);
   const Letterbox letterbox = MakeLetterbox(frame.color.size(), network_.input_size());
-  const YoloOutputs outputs = Run(ApplyLetterbox(letterbox, frame.color));
-  return {frame.id, DecodeYolo(outputs, letterbox, options_)};
+  network_.Run(ApplyLetterbox(letterbox, frame.color));
+  return {frame.id, DecodeYolo(Outputs(), letterbox, options_)};
 }
 
-YoloOutputs YoloSegSegmenter::Run(const cv::Mat& input) {
-  const std::vector<cv::Mat> outputs = network_.Forward(input);
+YoloOutputs YoloSegSegmenter::Outputs() const {
   try {
-    return SelectYoloOutputs(outputs, static_cast<int>(class_names_.size()));
+    return SelectYoloOutputs(network_.outputs(), static_cast<int>(class_names_.size()));
   } catch (const Error& error) {
     throw Error(network_.path(), error.what());
   }

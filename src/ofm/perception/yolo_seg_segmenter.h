@@ -19,8 +19,8 @@ struct YoloSegModel {
 
 class YoloSegSegmenter : public Segmenter {
  public:
-  /// Loads the network and runs it once on a grey image, so that a network of another layout is
-  /// refused here. Throws Error that names the file.
+  /// Loads the network. Throws Error that names the file where it cannot be used, be it for its
+  /// outputs.
   YoloSegSegmenter(const YoloSegModel& model, const YoloDecoderOptions& options);
 
   /// `frame.color` may have any size. Throws Error where the network cannot be run.
@@ -28,7 +28,7 @@ class YoloSegSegmenter : public Segmenter {
   const std::vector<std::string>& class_names() const override { return class_names_; }
 
  private:
-  YoloOutputs Run(const cv::Mat& input);
+  YoloOutputs Outputs() const;
 
   std::vector<std::string> class_names_;
   YoloDecoderOptions options_;
