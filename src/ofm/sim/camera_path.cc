@@ -58,7 +58,7 @@ RigidTransform CameraPath::Halfsphere(double time_s) const {
   constexpr double kElevationSpan = 0.3;  // of the azimuth's
   const Eigen::Vector3d arm = viewpoint_.eye_in_world - viewpoint_.target_in_world;
   const double radius = arm.norm();
-  const Eigen::Vector3d waves = Waves(time_s, options_.period_s);
+  const Eigen::Vector3d waves = Waves(time_s, 2 * options_.period_s);  // a long way: slowly
   const double span = 2 * options_.amplitude_deg * kRadiansPerDegree;
   const double azimuth = std::atan2(arm.y(), arm.x()) + span * waves.z();
   const double elevation = std::asin(arm.z() / radius) + kElevationSpan * span * waves.x();

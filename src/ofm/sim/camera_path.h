@@ -19,19 +19,20 @@ EnumNameList<CameraPathKind> EnumNames(CameraPathKind);
 
 struct CameraPathOptions {
   CameraPathKind kind = CameraPathKind::kXyz;
-  double amplitude_m = 0.2;   ///< of xyz, and the radius of a tour over 5
-  double amplitude_deg = 15;  ///< of rpy (roll, pitch and yaw) and half of halfsphere's azimuth
-  double period_s = 6;        ///< of the slowest part; one round of a tour takes 4 of them
+  double amplitude_m = 0.2;   ///< of xyz; a tour's radius is 5 of them [m]
+  double amplitude_deg = 15;  ///< of rpy; half of halfsphere's azimuth to each side [deg]
+  double period_s =
+      6;  ///< of the slowest part; halfsphere takes twice, a tour's round 4 times that
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind, "static, xyz, rpy, halfsphere or tour");
-    visit("amplitude_m", self.amplitude_m, "of the shifts; a tour's radius is 5 of them [m]",
+    visit("amplitude_m", self.amplitude_m, "of xyz's shifts; a tour's radius is 5 of them [m]",
           Range{0, 10});
     visit("amplitude_deg", self.amplitude_deg,
-          "of the turns; half of the azimuth on the half sphere [deg]", Range{0, 90});
-    visit("period_s", self.period_s, "of the slowest part; a quarter of a tour [s]",
-          Range{0.1, 1000});
+          "of rpy's turns; half of halfsphere's azimuth to each side [deg]", Range{0, 90});
+    visit("period_s", self.period_s,
+          "of the slowest part; half of halfsphere's, a quarter of a tour's [s]", Range{0.1, 1000});
   }
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -56,7 +57,7 @@ std::vector<cv::Point> RandomPolygon(RandomEngine& engine, int tile_size, double
 void PaintPatches(cv::Mat& tile, RandomEngine& engine, double contrast) {
   constexpr double kPatchesPerArea = 0.3;  // in units of the patch's own square
   tile.setTo(RandomColor(engine, contrast * 0.5));
-  for (double radius = tile.cols / 6.0; radius >= 3; radius /= 1.8) {
+  for (double radius = tile.cols / 6.0; radius >= 5; radius /= 1.8) {
     const double side = 2 * radius;
     const int count = cvRound(kPatchesPerArea * tile.cols * tile.rows / (side * side));
     for (int i = 0; i < count; ++i) {
@@ -117,6 +118,52 @@ cv::Mat PaintTile(const TextureOptions& options, std::uint64_t seed) {
   return tile;
 }
 
+/// Four bytes of a pixel.
+using PackedPixel = std::uint32_t;
+
+/// Channel by channel, (256 - weight) / 256 of `a` and weight / 256 of `b`, rounded; two channels
+/// at a time in the halves of a word.
+PackedPixel LerpPixel(PackedPixel a, PackedPixel b, std::uint32_t weight) {
+  constexpr std::uint32_t kEven = 0x00ff00ff;
+  constexpr std::uint32_t kHalf = 0x00800080;
+  const std::uint32_t rest = 256 - weight;
+  const std::uint32_t even = ((a & kEven) * rest + (b & kEven) * weight + kHalf) >> 8;
+  const std::uint32_t odd = ((a >> 8) & kEven) * rest + ((b >> 8) & kEven) * weight + kHalf;
+  return (even & kEven) | (odd & ~kEven);
+}
+
+/// The square `image`, which repeats, at (x, y) texels from its corner; texel centres are at
+/// halves.
+PackedPixel SampleBilinear(const cv::Mat& image, float x, float y) {
+  const auto to_fixed = [](float texels) {
+    const float value = texels * 256 - 128;
+    const int truncated = static_cast<int>(value);
+    return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
+  };
+  const int fixed_x = to_fixed(x);
+  const int fixed_y = to_fixed(y);
+  const int mask = image.cols - 1;
+  const int x0 = (fixed_x >> 8) & mask;
+  const int x1 = (x0 + 1) & mask;
+  const int y0 = (fixed_y >> 8) & mask;
+  const int y1 = (y0 + 1) & mask;
+  const auto texel = [&image](int column, int row) {
+    PackedPixel pixel;
+    std::memcpy(&pixel, image.data + 4 * (static_cast<std::ptrdiff_t>(row) * image.cols + column),
+                sizeof(pixel));
+    return pixel;
+  };
+  const std::uint32_t weight_x = fixed_x & 255;
+  return LerpPixel(LerpPixel(texel(x0, y0), texel(x1, y0), weight_x),
+                   LerpPixel(texel(x0, y1), texel(x1, y1), weight_x), fixed_y & 255);
+}
+
+Eigen::Array3f ToArray(PackedPixel pixel) {
+  std::array<std::uint8_t, 4> bytes;
+  std::memcpy(bytes.data(), &pixel, sizeof(pixel));
+  return {static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2])};
+}
+
 }  // namespace
 
 EnumNameList<TextureStyle> EnumNames(TextureStyle) {
@@ -127,57 +174,35 @@ EnumNameList<TextureStyle> EnumNames(TextureStyle) {
   return kNames;
 }
 
-Texture::Texture(const TextureOptions& options, std::uint64_t seed)
-    : metres_per_texel_(options.metres_per_texel) {
+Texture::Texture(const TextureOptions& options, std::uint64_t seed) {
   OFM_CHECK(options.size_px >= 32 && std::has_single_bit(static_cast<unsigned>(options.size_px)));
   OFM_CHECK(options.metres_per_texel > 0);
-  cv::Mat level;
-  cv::cvtColor(PaintTile(options, seed), level, cv::COLOR_BGR2BGRA);
-  levels_.push_back(level);
-  while (levels_.back().cols > 1) {
+  cv::Mat image;
+  cv::cvtColor(PaintTile(options, seed), image, cv::COLOR_BGR2BGRA);
+  float texels_per_metre = static_cast<float>(1 / options.metres_per_texel);
+  levels_.push_back({image, texels_per_metre});
+  while (image.cols > 1) {
     cv::Mat half;
-    cv::resize(levels_.back(), half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
-    levels_.push_back(half);
+    cv::resize(image, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
+    image = half;
+    texels_per_metre *= 0.5F;
+    levels_.push_back({image, texels_per_metre});
   }
-}
-
-Eigen::Array4f Texture::SampleLevel(std::size_t level, float x, float y) const {
-  const cv::Mat& image = levels_[level];
-  const float scale = std::ldexp(1.0F, -static_cast<int>(level));
-  // Texel centres are at half-integer positions on every level.
-  const float tx = x * scale - 0.5F;
-  const float ty = y * scale - 0.5F;
-  const float floor_x = std::floor(tx);
-  const float floor_y = std::floor(ty);
-  const float ax = tx - floor_x;
-  const float ay = ty - floor_y;
-  const int mask = image.cols - 1;
-  const int x0 = static_cast<int>(floor_x) & mask;
-  const int y0 = static_cast<int>(floor_y) & mask;
-  const int x1 = (x0 + 1) & mask;
-  const int y1 = (y0 + 1) & mask;
-  const uchar* top = image.ptr(y0);
-  const uchar* bottom = image.ptr(y1);
-  Eigen::Array4f color;
-  for (int c = 0; c < 4; ++c) {
-    const float upper = (1 - ax) * top[4 * x0 + c] + ax * top[4 * x1 + c];
-    const float lower = (1 - ax) * bottom[4 * x0 + c] + ax * bottom[4 * x1 + c];
-    color[c] = (1 - ay) * upper + ay * lower;
-  }
-  return color;
 }
 
 Eigen::Array3f Texture::Sample(float u_m, float v_m, float footprint_m) const {
-  const float per_metre = static_cast<float>(1 / metres_per_texel_);
-  const float x = u_m * per_metre;
-  const float y = v_m * per_metre;
-  const float texels = footprint_m * per_metre;
-  if (!(texels > 1)) return SampleLevel(0, x, y).head<3>();
-  const float level = std::log2(texels);
-  const std::size_t fine = static_cast<std::size_t>(level);
-  if (fine + 1 >= levels_.size()) return SampleLevel(levels_.size() - 1, x, y).head<3>();
-  const float ratio = level - static_cast<float>(fine);
-  return ((1 - ratio) * SampleLevel(fine, x, y) + ratio * SampleLevel(fine + 1, x, y)).head<3>();
+  const auto sample = [&](std::size_t k) {
+    return SampleBilinear(levels_[k].image, u_m * levels_[k].texels_per_metre,
+                          v_m * levels_[k].texels_per_metre);
+  };
+  const float texels = footprint_m * levels_.front().texels_per_metre;
+  if (!(texels > 1)) return ToArray(sample(0));
+  // The float's exponent is the finer level; its mantissa, the way to the coarser: log2 made
+  // piecewise linear.
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(texels);
+  const std::size_t fine = (bits >> 23) - 127;
+  if (fine + 1 >= levels_.size()) return ToArray(sample(levels_.size() - 1));
+  return ToArray(LerpPixel(sample(fine), sample(fine + 1), (bits >> 15) & 255));
 }
 
 }  // namespace ofm

@@ -37,14 +37,15 @@ class Texture {
   Eigen::Array3f Sample(float u_m, float v_m, float footprint_m) const;
 
   /// The full-size tile, CV_8UC4 (the fourth channel is unused).
-  const cv::Mat& image() const { return levels_.front(); }
-  double metres_per_texel() const { return metres_per_texel_; }
+  const cv::Mat& image() const { return levels_.front().image; }
 
  private:
-  Eigen::Array4f SampleLevel(std::size_t level, float x, float y) const;
+  struct Level {
+    cv::Mat image;           ///< CV_8UC4, continuous, half the size of the level before
+    float texels_per_metre;  ///< of this level
+  };
 
-  std::vector<cv::Mat> levels_;  ///< CV_8UC4, each half the size of the one before
-  double metres_per_texel_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace ofm
