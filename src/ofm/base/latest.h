@@ -29,7 +29,7 @@ class Latest {
   void WaitUntil(Accepts&& accepts) const OFM_EXCLUDES(mutex_)
       OFM_THREAD_ANNOTATION(no_thread_safety_analysis) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return accepts(value_); });
+    changed_.wait(lock, [&]() OFM_REQUIRES(mutex_) { return accepts(value_); });
   }
 
  private:

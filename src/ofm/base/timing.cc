@@ -1,6 +1,6 @@
 #include "ofm/base/timing.h"
 
-#include <time.h>
+#include <time.h>  // NOLINT(modernize-deprecated-headers): clock_gettime is POSIX, not C++
 
 #include <algorithm>
 #include <cmath>
