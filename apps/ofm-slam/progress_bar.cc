@@ -32,7 +32,7 @@ const char* StatusName(TrackingStatus status) {
 std::string Bar(double share) {
   constexpr int kWidth = 20;
   const int filled = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
-  return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] ";
+  return fmt::format("[{:#<{}}{:.<{}}] ", "", filled, "", kWidth - filled);
 }
 
 }  // namespace
