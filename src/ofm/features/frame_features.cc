@@ -49,6 +49,31 @@ std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const 
   return frame;
 }
 
+std::shared_ptr<const FrameFeatures> AlignDepthInTime(
+    const FrameFeatures& frame, const cv::Mat& depth_m,
+    const RigidTransform& depth_camera_from_color_camera, const PinholeCamera& camera) {
+  constexpr int kIterations = 2;
+  auto aligned = std::make_shared<FrameFeatures>(frame);
+  const RigidTransform color_from_depth = depth_camera_from_color_camera.Inverse();
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Eigen::Vector2d ideal_px = frame.ideal_px[i].cast<double>();
+    double depth = frame.depth_m[i];
+    for (int k = 0; k < kIterations && depth > 0; ++k) {
+      const Eigen::Vector3d in_depth_camera =
+          depth_camera_from_color_camera * camera.UnprojectIdeal(ideal_px, depth);
+      if (in_depth_camera.z() <= 0) break;
+      const Eigen::Vector2d pixel = camera.Project(in_depth_camera);
+      if (!camera.IsInImage(pixel)) break;
+      const float measured = DepthAt(depth_m, pixel.cast<float>());
+      if (measured <= 0) break;
+      const Eigen::Vector3d seen = in_depth_camera / in_depth_camera.z() * measured;
+      depth = (color_from_depth * seen).z();
+    }
+    if (depth > 0) aligned->depth_m[i] = static_cast<float>(depth);
+  }
+  return aligned;
+}
+
 std::optional<Eigen::Vector3d> PointInCamera(const FrameFeatures& features, int index,
                                              const PinholeCamera& camera) {
   const float depth = features.depth_m[index];

@@ -9,6 +9,7 @@
 #include "ofm/camera/pinhole_camera.h"
 #include "ofm/features/feature_grid.h"
 #include "ofm/features/features.h"
+#include "ofm/geometry/rigid_transform.h"
 
 namespace ofm {
 
@@ -43,6 +44,14 @@ class OctaveScales {
 /// without depth get 0.
 std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
                                                        const PinholeCamera& camera);
+
+/// Reads depth anew, allowing for the time between the two images: while the camera moves, the
+/// depth image shows the scene from elsewhere. `depth_camera_from_color_camera` is the camera's
+/// motion from the time of the colour image to that of the depth image. Features without depth at
+/// the pixel where their point then is keep what they have.
+std::shared_ptr<const FrameFeatures> AlignDepthInTime(
+    const FrameFeatures& frame, const cv::Mat& depth_m,
+    const RigidTransform& depth_camera_from_color_camera, const PinholeCamera& camera);
 
 /// The feature's point in the camera's frame [m]; empty where depth was not measured.
 std::optional<Eigen::Vector3d> PointInCamera(const FrameFeatures& features, int index,

@@ -17,7 +17,7 @@ struct OrbOptions {
   double scale_factor = 1.2;   ///< between levels
   int fast_threshold = 20;     ///< grey levels
   int min_fast_threshold = 7;  ///< grey levels, where a cell is empty at fast_threshold
-  double evenness = 0.1;       ///< share chosen to cover the image; the others are the strongest
+  double evenness = 0.75;      ///< share chosen to cover the image; the others are the strongest
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("count", self.count, "key points wanted per image", Range{50, 20000});

@@ -9,6 +9,8 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   input.frame_id = prepared.frame.id;
   input.stamp_ns = prepared.frame.stamp_ns;
   input.features = prepared.features;
+  input.depth_m = prepared.frame.depth_m;
+  input.depth_stamp_ns = prepared.frame.depth_stamp_ns;
   input.map = std::move(map);
   input.keyframes_waiting = keyframes_waiting;
   TrackingResult result;

@@ -11,7 +11,7 @@ namespace ofm {
 /// How well features and depth measure.
 struct MeasurementOptions {
   double pixel_sigma = 1;  ///< of a feature of octave 0 [px]; grows with the octave's scale
-  double inverse_depth_sigma = 0.05;  ///< [1/m]
+  double inverse_depth_sigma = 0.03;  ///< [1/m]
   double close_baselines = 40;        ///< depth beyond so many baselines makes no landmark
 
   template <class Self, class Visitor>

@@ -8,7 +8,7 @@ namespace ofm {
 
 /// When a frame becomes a keyframe (figures as published for ORB-SLAM2).
 struct KeyframeOptions {
-  double inlier_ratio = 0.75;  ///< of the reference keyframe's landmarks; fewer call for a keyframe
+  double inlier_ratio = 0.85;  ///< of the reference keyframe's landmarks; fewer call for a keyframe
   int max_frames = 30;         ///< since the last keyframe
   int min_inliers = 15;        ///< fewer make no keyframe
   int close_tracked = 100;     ///< fewer tracked close points call for a keyframe, …
@@ -36,7 +36,7 @@ struct TrackingOptions {
       20;                      ///< fewer widen the search, then fall back to the reference keyframe
   int min_frame_inliers = 10;  ///< frame to frame
   int min_map_inliers = 30;    ///< against the local map; fewer are a loss
-  double doubtful_share = 0.4;        ///< of the last frame's inliers; fewer call for a second opinion
+  double doubtful_share = 0.4;  ///< of the last frame's inliers; fewer call for a second opinion
   int min_relocalization_inliers = 50;
   int max_local_keyframes = 60;
   int max_hamming = 100;     ///< bits

@@ -25,17 +25,42 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
     return result;
   }
   SyncWithMap(*input.map);
-  TrackingResult result = TrackOrRelocalize(input);
+  TrackingResult result = TrackOrRelocalize(AlignDepth(input, velocity_));
+  const TrackingInput aligned = AlignDepth(input, VelocityTo(input, result));
   if (HasPose(result.status) &&
-      NeedsKeyframe(GatherKeyframeEvidence(model_, input, result, last_keyframe_frame_),
+      NeedsKeyframe(GatherKeyframeEvidence(model_, aligned, result, last_keyframe_frame_),
                     options_.keyframe)) {
-    result.keyframe = KeyframeCandidate{
-        input.frame_id,   input.stamp_ns,               result.camera_from_world,
-        result.reference, result.camera_from_reference, input.features,
-        result.landmarks};
+    result.keyframe = KeyframeCandidate{input.frame_id,
+                                        input.stamp_ns,
+                                        result.camera_from_world,
+                                        result.reference,
+                                        result.camera_from_reference,
+                                        aligned.features,
+                                        result.landmarks};
   }
-  Remember(input, result);
+  Remember(aligned, result);
   return result;
+}
+
+/// The input with the depth of its features as it was at the time of the colour image, the camera
+/// moving with `velocity`.
+TrackingInput Tracker::AlignDepth(const TrackingInput& input,
+                                  const std::optional<Vector6d>& velocity) const {
+  TrackingInput aligned = input;
+  const double delay_s = NanosecondsToSeconds(input.depth_stamp_ns - input.stamp_ns);
+  if (velocity && !input.depth_m.empty() && delay_s != 0) {
+    aligned.features = AlignDepthInTime(*input.features, input.depth_m, ExpSe3(delay_s * *velocity),
+                                        model_.camera);
+  }
+  return aligned;
+}
+
+/// Twist per second from the last frame to this one; empty where either has no pose.
+std::optional<Vector6d> Tracker::VelocityTo(const TrackingInput& input,
+                                            const TrackingResult& result) const {
+  if (!HasPose(result.status) || !last_ || input.stamp_ns <= last_->stamp_ns) return {};
+  const double elapsed_s = NanosecondsToSeconds(input.stamp_ns - last_->stamp_ns);
+  return LogSe3(result.camera_from_world * last_->camera_from_world.Inverse()) / elapsed_s;
 }
 
 /// Follows the last frame; where that fails or leaves few inliers, the reference keyframe is asked
@@ -225,11 +250,7 @@ void Tracker::Remember(const TrackingInput& input, const TrackingResult& result)
     velocity_.reset();
     return;
   }
-  velocity_.reset();
-  if (last_ && input.stamp_ns > last_->stamp_ns) {
-    const double elapsed_s = NanosecondsToSeconds(input.stamp_ns - last_->stamp_ns);
-    velocity_ = LogSe3(result.camera_from_world * last_->camera_from_world.Inverse()) / elapsed_s;
-  }
+  velocity_ = VelocityTo(input, result);
   last_ = TrackedFrame{input.frame_id, input.stamp_ns, input.features, result.landmarks,
                        result.camera_from_world};
   last_inliers_ = result.inliers;

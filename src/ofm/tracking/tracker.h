@@ -25,6 +25,10 @@ class Tracker {
 
   TrackingResult Initialize(const TrackingInput& input) const;
   TrackingResult TrackOrRelocalize(const TrackingInput& input) const;
+  TrackingInput AlignDepth(const TrackingInput& input,
+                           const std::optional<Vector6d>& velocity) const;
+  std::optional<Vector6d> VelocityTo(const TrackingInput& input,
+                                     const TrackingResult& result) const;
   RigidTransform PredictPose(std::int64_t stamp_ns) const;
   void SyncWithMap(const MapSnapshot& map);
   std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
@@ -44,7 +48,7 @@ class Tracker {
   RigidTransform camera_from_reference_;  // of the last frame with a pose
   std::optional<Vector6d> velocity_;      // twist of camera_from_world per second
   int last_inliers_ = 0;
-  FrameId last_keyframe_frame_;           // the newest frame that was proposed as keyframe
+  FrameId last_keyframe_frame_;  // the newest frame that was proposed as keyframe
 };
 
 }  // namespace ofm

@@ -29,6 +29,8 @@ struct TrackingInput {
   FrameId frame_id;
   std::int64_t stamp_ns = 0;
   std::shared_ptr<const FrameFeatures> features;
+  cv::Mat depth_m;  ///< CV_32FC1 [m]; empty where its time is that of the colour image
+  std::int64_t depth_stamp_ns = 0;  ///< of depth_m
   std::shared_ptr<const MapSnapshot> map;
   int keyframes_waiting = 0;  ///< for mapping; 0 where it is idle
 };
