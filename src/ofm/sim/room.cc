@@ -42,9 +42,17 @@ class RoomBuilder {
     return std::make_shared<Texture>(texture, seed_ * 1000 + ++textures_);
   }
 
-  static Part MakeBox(const Vector3d& half_extent_m, const RigidTransform& body_from_part,
-                      std::shared_ptr<const Texture> texture) {
-    return {Shape::kBox, half_extent_m, body_from_part, std::move(texture), {}};
+  /// A part that shows a piece of `texture` of its own.
+  Part MakePart(Shape shape, const Vector3d& half_extent_m, const RigidTransform& body_from_part,
+                std::shared_ptr<const Texture> texture) {
+    const double u = Uniform(0, 1);
+    const double v = Uniform(0, 1);
+    return {shape, half_extent_m, body_from_part, std::move(texture), {}, {u, v}};
+  }
+
+  Part MakeBox(const Vector3d& half_extent_m, const RigidTransform& body_from_part,
+               std::shared_ptr<const Texture> texture) {
+    return MakePart(Shape::kBox, half_extent_m, body_from_part, std::move(texture));
   }
 
   static RigidTransform Placed(const Vector3d& position, double yaw_rad = 0) {
@@ -60,11 +68,8 @@ class RoomBuilder {
                double width_m, double height_m) {
     Eigen::Matrix3d axes;
     axes << axis_u, axis_v, axis_u.cross(axis_v);
-    const Part wall{Shape::kRectangle,
-                    {0.5 * width_m, 0.5 * height_m, 0},
-                    {},
-                    Paint(kWallTexel_m, kWallTexture_px),
-                    {}};
+    const Part wall = MakePart(Shape::kRectangle, {0.5 * width_m, 0.5 * height_m, 0}, {},
+                               Paint(kWallTexel_m, kWallTexture_px));
     AddStatic("", {axes, centre}, {wall});
   }
 
@@ -101,7 +106,7 @@ class RoomBuilder {
     put("", {0.1, 0.1, 0.16}, Uniform(0.5, 0.7), 0.2, Uniform(-0.6, 0.6));
     put("", {0.08, 0.12, 0.11}, Uniform(-0.65, -0.5), 0.2, Uniform(-0.6, 0.6));
     AddStatic("sports ball", world_from_desk * Placed({0.33, -0.1, kTop_m + 0.09}),
-              {{Shape::kEllipsoid, Vector3d::Constant(0.09), {}, things, {}}});
+              {MakePart(Shape::kEllipsoid, Vector3d::Constant(0.09), {}, things)});
   }
 
   void AddShelves() {

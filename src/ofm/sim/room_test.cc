@@ -95,6 +95,18 @@ TEST(MakeRoom, FurnitureIsInsideAndLeavesTheMiddleFree) {
   }
 }
 
+TEST(MakeRoom, ThingsThatShareATextureShowDifferentPiecesOfIt) {
+  const Scene room = MakeRoom({}, 1);
+  std::vector<std::pair<double, double>> offsets;
+  for (const Body& body : room.bodies()) {
+    for (const Part& part : body.parts) {
+      offsets.emplace_back(part.texture_offset_m.x(), part.texture_offset_m.y());
+    }
+  }
+  std::sort(offsets.begin(), offsets.end());
+  EXPECT_EQ(std::adjacent_find(offsets.begin(), offsets.end()), offsets.end());
+}
+
 TEST(MakeRoom, NearestMoverPassesAtTheDistanceWanted) {
   RoomOptions options;
   options.people = 1;

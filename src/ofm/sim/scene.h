@@ -35,6 +35,8 @@ struct Part {
   RigidTransform body_from_part;  ///< at rest; the part's centre is its origin
   std::shared_ptr<const Texture> texture;
   Swing swing;
+  /// Where on the texture the part begins, so that parts may share one and not look alike [m].
+  Eigen::Vector2d texture_offset_m = Eigen::Vector2d::Zero();
 };
 
 /// Something that moves as one, its swinging limbs apart.

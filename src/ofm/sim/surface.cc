@@ -13,6 +13,7 @@ constexpr float kNearPlane_m = 0.05F;
 /// What does not depend on the shape.
 struct Look {
   const Texture* texture;
+  Eigen::Vector2f texture_offset_m;
   Eigen::Vector3f light_in_camera;
   std::uint8_t instance;
 };
@@ -46,6 +47,7 @@ Surface MakeSurface(Surface::Kind kind, const Look& look) {
   Surface surface;
   surface.kind = kind;
   surface.texture = look.texture;
+  surface.texture_offset_m = look.texture_offset_m;
   surface.light_in_camera = look.light_in_camera;
   surface.instance = look.instance;
   return surface;
@@ -79,7 +81,7 @@ void AddRectangle(const Rectangle& rectangle, const Look& look, double texture_s
   surface.half_u = static_cast<float>(half_u);
   surface.half_v = static_cast<float>(half_v);
   surface.normal_in_camera = (distance > 0 ? Eigen::Vector3d(-normal) : normal).cast<float>();
-  surface.texture_offset_m.setConstant(static_cast<float>(texture_shift_m));
+  surface.texture_offset_m.array() += static_cast<float>(texture_shift_m);
   surfaces.push_back(surface);
 }
 
@@ -189,7 +191,8 @@ std::vector<Surface> MakeSurfaces(const Scene& scene, double time_s,
   for (const Body& body : scene.bodies()) {
     for (const Part& part : body.parts) {
       const RigidTransform camera_from_part = camera_from_world * WorldFromPart(body, part, time_s);
-      const Look look{part.texture.get(), light, static_cast<std::uint8_t>(body.id.value)};
+      const Look look{part.texture.get(), part.texture_offset_m.cast<float>(), light,
+                      static_cast<std::uint8_t>(body.id.value)};
       switch (part.shape) {
         case Shape::kRectangle: {
           const Eigen::Matrix3d axes = camera_from_part.RotationMatrix();

@@ -117,6 +117,17 @@ TEST(Surface, SurfaceTurnedToTheLightIsBrighter) {
   EXPECT_NEAR(lit / shadow, 1 / 0.55, 1e-4);
 }
 
+TEST(Surface, TextureBeginsWhereThePartSays) {
+  Body wall = MakeTestWall();
+  const float shift = 0.4F;
+  const Eigen::Array3f before = ShadeSurface(SurfacesOf(wall)[0], {shift / 4, 0.1F}, 4, 0);
+  const Eigen::Array3f elsewhere = ShadeSurface(SurfacesOf(wall)[0], {0, 0.1F}, 4, 0);
+  wall.parts[0].texture_offset_m = {shift, 0};
+  const Eigen::Array3f after = ShadeSurface(SurfacesOf(wall)[0], {0, 0.1F}, 4, 0);
+  EXPECT_LE((after - before).abs().maxCoeff(), 2);
+  EXPECT_GT((elsewhere - before).abs().maxCoeff(), 5);
+}
+
 TEST(Surface, MovingBodyIsElsewhereLater) {
   const Body box =
       MakeTestBody("box", SweepMotion{{0, 0, 2}, {1.5, 0, 0}, 4, 0}, Shape::kBox, {0.3, 0.3, 0.3});

@@ -25,7 +25,7 @@ inline Body MakeTestBody(std::string class_name, const Motion& motion, Shape sha
   return {{},
           std::move(class_name),
           motion,
-          {{shape, half_extent_m, {}, MakeTestTexture(half_extent_m.x() > 1 ? 1 : 2), {}}}};
+          {{shape, half_extent_m, {}, MakeTestTexture(half_extent_m.x() > 1 ? 1 : 2), {}, {0, 0}}}};
 }
 
 /// A wall at z = 4 m that more than fills the view of a camera at the origin with the world's axes.

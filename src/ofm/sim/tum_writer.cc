@@ -2,41 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
 #include "ofm/base/error.h"
-#include "ofm/base/time.h"
+#include "ofm/io/atomic_file.h"
+#include "ofm/io/trajectory_file.h"
 
 namespace ofm {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A text file that notices when it cannot be written.
-class TextFile {
- public:
-  explicit TextFile(fs::path path) : path_(std::move(path)), stream_(path_) {
-    if (!stream_) throw Error(path_, "cannot be opened for writing");
-  }
-  void Write(const std::string& text) { stream_ << text; }
-  void Close() {
-    stream_.close();
-    if (!stream_) throw Error(path_, "could not be written to the end");
-  }
-
- private:
-  fs::path path_;
-  std::ofstream stream_;
-};
-
-void WriteText(const fs::path& path, const std::string& text) {
-  TextFile file(path);
-  file.Write(text);
-  file.Close();
-}
 
 void MakeFolder(const fs::path& path) {
   std::error_code error;
@@ -65,6 +42,7 @@ std::string CameraJson(const PinholeCamera& camera) {
   json["cy"] = camera.cy;
   json["distortion"] = {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3};
   json["depth_scale"] = camera.depth_scale;
+  json["baseline_m"] = camera.baseline_m;
   return json.dump(1) + "\n";
 }
 
@@ -76,25 +54,14 @@ std::string ActorsJson(const Scene& scene) {
   return nlohmann::ordered_json{{"actors", actors}}.dump(1) + "\n";
 }
 
-std::string PoseLine(const StampedPose& pose) {
-  const Eigen::Vector3d& t = pose.world_from_camera.translation();
-  const Eigen::Quaterniond& q = pose.world_from_camera.rotation();
-  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
-                     FormatSeconds(pose.stamp_ns), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
-}
-
 }  // namespace
 
 void WriteTumSequence(const SimSequence& sequence, const fs::path& folder) {
   for (const char* name : {"rgb", "depth", "mask"}) MakeFolder(folder / name);
-  WriteText(folder / "camera.json", CameraJson(sequence.camera()));
-  WriteText(folder / "actors.json", ActorsJson(sequence.scene()));
-  TextFile rgb(folder / "rgb.txt"), depth(folder / "depth.txt");
-  TextFile associations(folder / "associations.txt"), truth(folder / "groundtruth.txt");
-  rgb.Write("# timestamp filename\n");
-  depth.Write("# timestamp filename\n");
-  truth.Write("# timestamp tx ty tz qx qy qz qw\n");
-  for (const StampedPose& pose : sequence.GroundTruth()) truth.Write(PoseLine(pose));
+  WriteFileAtomically(folder / "camera.json", CameraJson(sequence.camera()));
+  WriteFileAtomically(folder / "actors.json", ActorsJson(sequence.scene()));
+  SaveTrajectory(folder / "groundtruth.txt", sequence.GroundTruth());
+  std::string rgb = "# timestamp filename\n", depth = rgb, associations;
   for (std::uint32_t i = 0; i < *sequence.size(); ++i) {
     const RgbdFrame frame = sequence.Frame(FrameId(i));
     const std::string rgb_line = fmt::format("{0} rgb/{0}.png", frame.name);
@@ -104,11 +71,14 @@ void WriteTumSequence(const SimSequence& sequence, const fs::path& folder) {
     WriteImage(folder / "rgb" / (frame.name + ".png"), frame.color);
     WriteImage(folder / "depth" / (frame.name + ".png"), depth_units);
     WriteImage(folder / "mask" / (frame.name + ".png"), sequence.MoverMask(frame.id));
-    rgb.Write(rgb_line + "\n");
-    depth.Write(depth_line + "\n");
-    associations.Write(rgb_line + " " + depth_line + "\n");
+    rgb += rgb_line + "\n";
+    depth += depth_line + "\n";
+    associations += rgb_line + " " + depth_line + "\n";
   }
-  for (TextFile* file : {&rgb, &depth, &associations, &truth}) file->Close();
+  // The lists come last: a folder without them is not taken for a whole sequence.
+  WriteFileAtomically(folder / "rgb.txt", rgb);
+  WriteFileAtomically(folder / "depth.txt", depth);
+  WriteFileAtomically(folder / "associations.txt", associations);
 }
 
 }  // namespace ofm
