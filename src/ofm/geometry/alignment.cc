@@ -49,7 +49,7 @@ std::optional<RigidTransform> AlignRigid(std::span<const Eigen::Vector3d> source
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   // The rotation about the longest axis is known only where the points also spread beside it, by
   // more than the rounding of their coordinates.
-  const Eigen::Vector3d spread = svd.singularValues();
+  const Eigen::Vector3d& spread = svd.singularValues();
   const double rounding = 1e-26 * from.weight * from.mean.norm() * to.mean.norm();
   if (!(spread[1] > 1e-12 * spread[0] + rounding)) return {};
 
