@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -114,6 +115,60 @@ TEST(FrameFeatures, GridIsOverIdealPixels) {
   int visited = 0;
   frame->grid.VisitNear(ideal.cast<float>(), 0.1F, [&](int) { ++visited; });
   EXPECT_EQ(visited, 1);
+}
+
+/// The wall z = 2 m of the colour camera as a camera 0.1 m before it would measure it, and a step
+/// in it: nearer where x > 0.5 m.
+cv::Mat DepthFromNearer(const PinholeCamera& camera) {
+  cv::Mat depth = PlainDepth(1.9F);
+  const int step = static_cast<int>(std::lround(camera.cx + camera.fx * 0.5 / 1.9));
+  depth.colRange(step, depth.cols) = 1.4F;
+  return depth;
+}
+
+TEST(AlignDepthInTime, CameraThatStoodStillChangesNothing) {
+  const auto frame = MakeFrameFeatures(FeaturesAt({{10, 20}, {300, 200}}), PlainDepth(2), {});
+  const auto aligned = AlignDepthInTime(*frame, PlainDepth(2), {}, {});
+  EXPECT_NEAR(aligned->depth_m[0], 2, 1e-6);
+  EXPECT_NEAR(aligned->depth_m[1], 2, 1e-6);
+  EXPECT_EQ(aligned->ideal_px, frame->ideal_px);
+}
+
+TEST(AlignDepthInTime, AllowsForTheWayThatTheCameraWent) {
+  const PinholeCamera camera;
+  const cv::Mat depth = DepthFromNearer(camera);
+  const RigidTransform forward(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -0.1));
+  const auto frame = MakeFrameFeatures(FeaturesAt({{100, 200}, {319, 240}}), depth, camera);
+  const auto aligned = AlignDepthInTime(*frame, depth, forward, camera);
+  EXPECT_NEAR(frame->depth_m[0], 1.9, 1e-6);
+  EXPECT_NEAR(aligned->depth_m[0], 2, 1e-5);
+  EXPECT_NEAR(aligned->depth_m[1], 2, 1e-5);
+}
+
+TEST(AlignDepthInTime, ReadsWhereThePointIsInTheDepthImage) {
+  // The wall's step is at another pixel of the depth image than of the colour image.
+  const PinholeCamera camera;
+  const cv::Mat depth = DepthFromNearer(camera);
+  const RigidTransform forward(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -0.1));
+  const auto u = static_cast<float>(camera.cx + camera.fx * 0.49 / 1.9);
+  const auto frame = MakeFrameFeatures(FeaturesAt({{u, 240}}), depth, camera);
+  EXPECT_NEAR(frame->depth_m[0], 1.9, 1e-6);
+  EXPECT_NEAR(AlignDepthInTime(*frame, depth, forward, camera)->depth_m[0], 1.5, 1e-5);
+}
+
+TEST(AlignDepthInTime, KeepsWhatItHasWhereTheDepthImageTellsNothing) {
+  const cv::Mat depth = PlainDepth(2);
+  const auto frame = MakeFrameFeatures(FeaturesAt({{320, 240}, {639, 479}}), depth, {});
+  const RigidTransform aside(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.1, 0, 0));
+  EXPECT_EQ(AlignDepthInTime(*frame, PlainDepth(0), aside, {})->depth_m, frame->depth_m);
+  EXPECT_EQ(AlignDepthInTime(*frame, depth, aside, {})->depth_m[1], 2) << "left the image";
+  const RigidTransform past(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -3));
+  EXPECT_EQ(AlignDepthInTime(*frame, depth, past, {})->depth_m, frame->depth_m);
+}
+
+TEST(AlignDepthInTime, MakesNoDepthWhereThereWasNone) {
+  const auto frame = MakeFrameFeatures(FeaturesAt({{320, 240}}), PlainDepth(0), {});
+  EXPECT_EQ(AlignDepthInTime(*frame, PlainDepth(2), {}, {})->depth_m[0], 0);
 }
 
 TEST(PointInCamera, IsThePointThatTheFeatureShows) {

@@ -107,7 +107,12 @@ TrackingInput MakeInput(std::shared_ptr<const MapSnapshot> map) {
   for (const float depth : {1.0F, 2.0F, 2.5F, 3.5F, 4.0F, 0.0F}) {
     features.push_back({{320, 240}, depth, 0, {}, 0});
   }
-  return {FrameId(12), 0, MakeTestFeatures(features), std::move(map), 2};
+  TrackingInput input;
+  input.frame_id = FrameId(12);
+  input.features = MakeTestFeatures(features);
+  input.map = std::move(map);
+  input.keyframes_waiting = 2;
+  return input;
 }
 
 TrackingResult MakeResult() {

@@ -103,7 +103,12 @@ class FeatureWorld {
 };
 
 inline TrackingInput MakeInput(const MadeFrame& frame, std::shared_ptr<const MapSnapshot> map) {
-  return {frame.id, frame.stamp_ns, frame.features, std::move(map), 0};
+  TrackingInput input;
+  input.frame_id = frame.id;
+  input.stamp_ns = input.depth_stamp_ns = frame.stamp_ns;
+  input.features = frame.features;
+  input.map = std::move(map);
+  return input;
 }
 
 /// A frame in which nothing is to be seen.
