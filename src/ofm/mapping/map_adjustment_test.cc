@@ -1,0 +1,138 @@
+#include "ofm/mapping/map_adjustment.h"
+
+#include <gtest/gtest.h>
+
+#include "ofm/estimation/test_world.h"
+#include "ofm/mapping/test_mapping.h"
+
+namespace ofm {
+namespace {
+
+using test::FindProblem;
+using test::MadeFrame;
+using test::TrueMap;
+
+/// Six keyframes; `disturb` moves all but the first, and all landmarks.
+class MapAdjustment : public testing::Test {
+ protected:
+  MapAdjustment() {
+    for (std::uint32_t i = 0; i < 6; ++i) made_.Add(made_.world.Frame(4 * i));
+    made_.RefreshAll();
+  }
+
+  void Disturb() {
+    RandomEngine engine = MakeRandomEngine(4, 0);
+    for (std::uint32_t i = 1; i < 6; ++i) {
+      const RigidTransform error = ExpSe3(test::RandomTwist(engine, 0.01, 0.005));
+      made_.map.SetKeyframePose(KeyframeId(i), error * Pose(i));
+    }
+    for (const auto& [shown, id] : made_.association.names()) {
+      const Eigen::Vector3d error = test::RandomTwist(engine, 0.01, 0).head<3>();
+      made_.map.SetLandmarkPosition(id, made_.map.GetLandmark(id).position_in_world + error);
+    }
+  }
+  RigidTransform Pose(std::uint32_t i) const {
+    return made_.map.GetKeyframe(KeyframeId(i)).camera_from_world;
+  }
+  double Error_m(std::uint32_t i) const {
+    return test::DistanceOfCentres_m(Pose(i), made_.truth[i]);
+  }
+  bool IsAtTruth(std::uint32_t i) const {
+    return test::MaxDifference(Pose(i), made_.truth[i]) == 0;
+  }
+
+  TrueMap made_;
+  MappingOptions options_;
+};
+
+TEST_F(MapAdjustment, WholeMapComesBackToTheTruth) {
+  Disturb();
+  ASSERT_GT(made_.PoseError_m(), 0.01);
+  ASSERT_GT(made_.PointError_m(), 0.01);
+  AdjustWholeMap(made_.map, made_.world.model(), options_);
+  EXPECT_LT(made_.PoseError_m(), 1e-3);
+  EXPECT_LT(made_.PointError_m(), 2e-3);
+  EXPECT_TRUE(IsAtTruth(0)) << "the first is fixed, to the last bit";
+  EXPECT_EQ(FindProblem(made_.map), "");
+}
+
+TEST_F(MapAdjustment, LandmarksAreRefreshed) {
+  Disturb();
+  AdjustWholeMap(made_.map, made_.world.model(), options_);
+  made_.map.landmarks().ForEach([&](const Landmark& landmark) {
+    const Landmark::Observation& first = landmark.observations.front();
+    const Keyframe& keyframe = made_.map.GetKeyframe(first.keyframe);
+    const int octave = keyframe.features->keypoints[first.feature].octave;
+    const double distance = (landmark.position_in_world - keyframe.CenterInWorld()).norm();
+    EXPECT_NEAR(landmark.max_distance_m, distance * test::TestScales().Scale(octave), 1e-4);
+  });
+}
+
+TEST_F(MapAdjustment, WrongObservationsLeaveTheMap) {
+  const LandmarkId id = made_.map.GetKeyframe(KeyframeId(5)).landmarks[20];
+  ASSERT_TRUE(id.valid());
+  const std::size_t observers = made_.map.GetLandmark(id).observations.size();
+  ASSERT_GE(observers, 3U);
+  // Keyframe 5 is told that another of its features shows the landmark.
+  made_.map.RemoveObservation(id, KeyframeId(5));
+  const LandmarkId other = made_.map.GetKeyframe(KeyframeId(5)).landmarks[200];
+  if (other.valid()) made_.map.RemoveObservation(other, KeyframeId(5));
+  made_.map.AddObservation(id, KeyframeId(5), 200);
+  AdjustWholeMap(made_.map, made_.world.model(), options_);
+  ASSERT_NE(made_.map.FindLandmark(id), nullptr);
+  EXPECT_EQ(made_.map.GetLandmark(id).FeatureIn(KeyframeId(5)), -1);
+  EXPECT_EQ(made_.map.GetLandmark(id).observations.size(), observers - 1);
+  EXPECT_LT(made_.PoseError_m(), 1e-3);
+  EXPECT_EQ(FindProblem(made_.map), "");
+}
+
+TEST_F(MapAdjustment, LocalOneMovesTheNeighbourhoodOnly) {
+  Disturb();
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    made_.map.SetKeyframePose(KeyframeId(i), made_.truth[i]);  // what holds the others in place
+  }
+  const RigidTransform far = Pose(3);
+  options_.max_bundle_keyframes = 2;
+  AdjustLocally(made_.map, KeyframeId(5), made_.world.model(), options_);
+  EXPECT_LT(Error_m(5), 5e-3);
+  int moved = 0;
+  for (std::uint32_t i = 0; i < 3; ++i) moved += !IsAtTruth(i);
+  moved += test::MaxDifference(Pose(3), far) > 0;
+  EXPECT_LE(moved, 1) << "one neighbour at most";
+  EXPECT_EQ(FindProblem(made_.map), "");
+}
+
+TEST_F(MapAdjustment, LocalOneAroundTheFirstKeyframeLeavesThatFixed) {
+  Disturb();
+  AdjustLocally(made_.map, KeyframeId(5), made_.world.model(), options_);
+  EXPECT_TRUE(IsAtTruth(0));
+  EXPECT_LT(made_.PoseError_m(), 1e-3);
+}
+
+TEST_F(MapAdjustment, AloneKeyframeStaysWhereItIs) {
+  TrueMap alone;
+  alone.Add(alone.world.Frame(3));
+  AdjustLocally(alone.map, KeyframeId(0), alone.world.model(), options_);
+  AdjustWholeMap(alone.map, alone.world.model(), options_);
+  EXPECT_EQ(alone.PoseError_m(), 0);
+  EXPECT_EQ(FindProblem(alone.map), "");
+}
+
+TEST_F(MapAdjustment, EmptyMapStaysEmpty) {
+  Map empty(test::TestScales());
+  AdjustWholeMap(empty, made_.world.model(), options_);
+  EXPECT_EQ(empty.keyframes().size(), 0U);
+}
+
+TEST_F(MapAdjustment, StoppedOneChangesNothing) {
+  Disturb();
+  const double before = made_.PoseError_m();
+  std::stop_source source;
+  source.request_stop();
+  AdjustWholeMap(made_.map, made_.world.model(), options_, source.get_token());
+  AdjustLocally(made_.map, KeyframeId(5), made_.world.model(), options_, source.get_token());
+  EXPECT_EQ(made_.PoseError_m(), before);
+}
+
+}  // namespace
+}  // namespace ofm

@@ -1,0 +1,221 @@
+#include "ofm/mapping/mapper.h"
+
+#include <gtest/gtest.h>
+
+#include "ofm/mapping/test_mapping.h"
+
+namespace ofm {
+namespace {
+
+using test::Association;
+using test::FeatureWorld;
+using test::FindProblem;
+using test::MadeFrame;
+
+/// A mapper that is handed frames with their true poses and all landmarks that they show.
+class TrueMapping {
+ public:
+  explicit TrueMapping(const MappingOptions& options = {},
+                       const test::FeatureWorldOptions& world = test::DefaultWorld())
+      : world_(world), mapper_(world_.model(), options) {}
+
+  KeyframeCandidate Candidate(const MadeFrame& frame) const {
+    KeyframeCandidate candidate;
+    candidate.frame_id = frame.id;
+    candidate.stamp_ns = frame.stamp_ns;
+    candidate.camera_from_world = frame.camera_from_world;
+    candidate.features = frame.features;
+    candidate.landmarks = association_.Names(mapper_.map(), frame);
+    return candidate;
+  }
+  KeyframeId Insert(const MadeFrame& frame, const std::vector<Sighting>& sightings = {}) {
+    const KeyframeId id = mapper_.Insert(Candidate(frame), sightings);
+    association_.Learn(mapper_.map().GetKeyframe(id), frame);
+    return id;
+  }
+  KeyframeId Insert(std::uint32_t frame_id, const std::vector<Sighting>& sightings = {}) {
+    return Insert(world_.Frame(frame_id), sightings);
+  }
+
+  Mapper& mapper() { return mapper_; }
+  const Map& map() const { return mapper_.map(); }
+  const FeatureWorld& world() const { return world_; }
+
+ private:
+  FeatureWorld world_;
+  Mapper mapper_;
+  Association association_;
+};
+
+/// Options under which keyframes stay.
+MappingOptions KeepKeyframes() {
+  MappingOptions options;
+  options.redundant_share = 1.01;
+  return options;
+}
+
+TEST(Mapper, InsertMakesLandmarksOfTheDepth) {
+  TrueMapping mapping;
+  const MadeFrame frame = mapping.world().Frame(3);
+  const KeyframeId id = mapping.Insert(frame);
+  const Keyframe& keyframe = mapping.map().GetKeyframe(id);
+  EXPECT_EQ(keyframe.frame_id, FrameId(3));
+  EXPECT_EQ(keyframe.stamp_ns, frame.stamp_ns);
+  for (std::size_t i = 0; i < frame.shown.size(); ++i) {
+    if (frame.features->depth_m[i] > mapping.world().model().CloseDepth()) continue;
+    ASSERT_TRUE(keyframe.landmarks[i].valid());
+    const Eigen::Vector3d& truth = mapping.world().points()[frame.shown[i].value];
+    const Landmark& landmark = mapping.map().GetLandmark(keyframe.landmarks[i]);
+    EXPECT_LT((landmark.position_in_world - truth).norm(), 1e-5);
+  }
+  EXPECT_EQ(FindProblem(mapping.map()), "");
+  EXPECT_EQ(FindProblem(*mapping.mapper().Snapshot()), "");
+}
+
+TEST(Mapper, FarDepthMakesLandmarksOnlyWhereThereAreTooFew) {
+  const MadeFrame frame = FeatureWorld().Frame(0);
+  const double close_m = FeatureWorld().model().CloseDepth();
+  const auto count = [&](int min_close) {
+    MappingOptions options;
+    options.min_close_landmarks = min_close;
+    TrueMapping mapping(options);
+    mapping.Insert(frame);
+    return static_cast<int>(mapping.map().landmarks().size());
+  };
+  int close = 0;
+  for (const float depth : frame.features->depth_m) close += depth <= close_m;
+  const int all = static_cast<int>(frame.features->size());
+  ASSERT_GT(close, 50);
+  ASSERT_GT(all, close + 50);
+  EXPECT_EQ(count(0), close);
+  EXPECT_EQ(count(close + 7), close + 7) << "the nearest of the far ones";
+  EXPECT_EQ(count(100000), all);
+}
+
+TEST(Mapper, InsertKeepsTheLandmarksThatTrackingFound) {
+  TrueMapping mapping;
+  mapping.Insert(0);
+  const std::size_t before = mapping.map().landmarks().size();
+  const MadeFrame frame = mapping.world().Frame(2);
+  const KeyframeCandidate candidate = mapping.Candidate(frame);
+  const KeyframeId id = mapping.mapper().Insert(candidate, {});
+  const Keyframe& keyframe = mapping.map().GetKeyframe(id);
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < candidate.landmarks.size(); ++i) {
+    if (!candidate.landmarks[i].valid()) continue;
+    ++known;
+    EXPECT_EQ(keyframe.landmarks[i], candidate.landmarks[i]);
+    EXPECT_EQ(mapping.map().GetLandmark(keyframe.landmarks[i]).observations.size(), 2U);
+  }
+  EXPECT_GT(known, 200U);
+  EXPECT_LE(mapping.map().landmarks().size(), before + frame.shown.size() - known);
+  EXPECT_EQ(FindProblem(mapping.map()), "");
+}
+
+TEST(Mapper, PoseIsThatRelativeToTheReference) {
+  TrueMapping mapping;
+  const KeyframeId first = mapping.Insert(0);
+  const RigidTransform first_pose = mapping.map().GetKeyframe(first).camera_from_world;
+  KeyframeCandidate candidate = mapping.Candidate(mapping.world().Frame(2));
+  candidate.reference = first;
+  candidate.camera_from_reference = RigidTransform(ExpSo3({0, 0.1, 0}), {0.1, 0.2, 0.3});
+  const KeyframeId id = mapping.mapper().Insert(candidate, {});
+  EXPECT_LT(test::MaxDifference(mapping.map().GetKeyframe(id).camera_from_world,
+                                candidate.camera_from_reference * first_pose),
+            1e-12);
+}
+
+TEST(Mapper, SightingsAreCounted) {
+  TrueMapping mapping;
+  mapping.Insert(0);
+  const LandmarkId id(3);
+  mapping.Insert(1, {{id, true}, {id, false}, {id, false}, {LandmarkId(99999), true}});
+  EXPECT_EQ(mapping.map().GetLandmark(id).visible_count, 1 + 3);
+  EXPECT_EQ(mapping.map().GetLandmark(id).found_count, 1 + 1);
+}
+
+TEST(Mapper, YoungLandmarkThatIsNotFoundIsCulled) {
+  TrueMapping mapping(KeepKeyframes());
+  mapping.Insert(0);
+  mapping.mapper().Refine();
+  const std::vector<LandmarkId> first = mapping.map().GetKeyframe(KeyframeId(0)).landmarks;
+  LandmarkId bad, good;
+  for (const LandmarkId id : first) {
+    if (!id.valid()) continue;
+    good = bad;
+    bad = id;
+  }
+  ASSERT_TRUE(good.valid());
+  std::vector<Sighting> sightings(9, {bad, false});
+  sightings.insert(sightings.end(), 9, {good, true});
+  // Frame 0 once more: both are seen again.
+  mapping.Insert(0, sightings);
+  ASSERT_NE(mapping.map().FindLandmark(bad), nullptr);
+  mapping.mapper().Refine();
+  EXPECT_EQ(mapping.map().FindLandmark(bad), nullptr);
+  EXPECT_NE(mapping.map().FindLandmark(good), nullptr);
+  EXPECT_EQ(FindProblem(mapping.map()), "");
+}
+
+TEST(Mapper, LandmarkThatOneKeyframeSeesGoesTwoKeyframesLater) {
+  for (const int min_observations : {1, 2}) {
+    MappingOptions options = KeepKeyframes();
+    options.min_observations = min_observations;
+    TrueMapping mapping(options);
+    mapping.Insert(0);
+    const std::size_t made = mapping.map().landmarks().size();
+    for (std::uint32_t i = 1; i < 3; ++i) {
+      mapping.mapper().Refine();
+      EXPECT_EQ(mapping.map().landmarks().size(), made) << "too young to judge";
+      mapping.Insert(test::MakeBlindFrame(mapping.world().Frame(i)));
+    }
+    mapping.mapper().Refine();
+    EXPECT_EQ(mapping.map().landmarks().size(), min_observations == 1 ? made : 0U);
+    EXPECT_EQ(FindProblem(mapping.map()), "");
+  }
+}
+
+TEST(Mapper, GrownLandmarkIsNotJudgedAnyMore) {
+  TrueMapping mapping(KeepKeyframes());
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    mapping.Insert(0);
+    mapping.mapper().Refine();
+  }
+  const LandmarkId id(3);
+  ASSERT_NE(mapping.map().FindLandmark(id), nullptr);
+  mapping.Insert(0, std::vector<Sighting>(50, {id, false}));
+  mapping.mapper().Refine();
+  EXPECT_NE(mapping.map().FindLandmark(id), nullptr);
+}
+
+TEST(Mapper, NothingToRefineIsNoError) {
+  TrueMapping mapping;
+  mapping.mapper().Refine();
+  mapping.mapper().AdjustAll();
+  EXPECT_EQ(mapping.map().keyframes().size(), 0U);
+}
+
+TEST(Mapper, AdjustsUnlessAskedToStop) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  for (const std::stop_token& stop : {std::stop_token(), stopped.get_token()}) {
+    TrueMapping mapping(KeepKeyframes());
+    mapping.Insert(0);
+    mapping.Insert(2);
+    KeyframeCandidate off = mapping.Candidate(mapping.world().Frame(4));
+    const RigidTransform truth = off.camera_from_world;
+    off.camera_from_world = RigidTransform(ExpSo3({0, 0.002, 0}), {0.005, 0, 0}) * truth;
+    const KeyframeId id = mapping.mapper().Insert(off, {});
+    mapping.mapper().Refine(stop);
+    const RigidTransform pose = mapping.map().GetKeyframe(id).camera_from_world;
+    if (stop.stop_requested()) {
+      EXPECT_EQ(test::MaxDifference(pose, off.camera_from_world), 0);
+    } else {
+      EXPECT_LT(test::DistanceOfCentres_m(pose, truth), 2e-3);
+    }
+    EXPECT_EQ(FindProblem(mapping.map()), "");
+  }
+}
+
+}  // namespace
+}  // namespace ofm
