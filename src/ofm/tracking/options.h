@@ -8,7 +8,7 @@ namespace ofm {
 
 /// When a frame becomes a keyframe (figures as published for ORB-SLAM2).
 struct KeyframeOptions {
-  double inlier_ratio = 0.85;  ///< of the reference keyframe's landmarks; fewer call for a keyframe
+  double inlier_ratio = 0.8;   ///< of the reference keyframe's landmarks; fewer call for a keyframe
   int max_frames = 30;         ///< since the last keyframe
   int min_inliers = 15;        ///< fewer make no keyframe
   int close_tracked = 100;     ///< fewer tracked close points call for a keyframe, …
