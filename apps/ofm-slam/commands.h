@@ -7,6 +7,7 @@ namespace ofm {
 
 void AddRunCommand(CLI::App& app);
 void AddEvaluateCommand(CLI::App& app);
+void AddEvaluateMapCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 
 }  // namespace ofm

@@ -33,6 +33,7 @@ int RunCommandLine(int argc, char** argv) {
   app.require_subcommand(0, 1);  // none is reported below: CLI11 would hide a misspelt one
   ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
+  ofm::AddEvaluateMapCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
