@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ofm/map/test_map.h"
 
 namespace ofm {

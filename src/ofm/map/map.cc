@@ -121,7 +121,7 @@ void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
 }
 
 void Map::Fuse(LandmarkId from, LandmarkId into) {
-  OFM_CHECK(from != into);
+  OFM_CHECK(from != into && landmarks_.Find(into) != nullptr);
   const Landmark gone = landmarks_.Get(from);
   RemoveLandmark(from);
   replacements_[from.value] = into;

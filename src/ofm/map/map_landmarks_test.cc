@@ -1,6 +1,7 @@
 // What the map knows of a landmark: fusion, appearance and sightings.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "ofm/map/map.h"

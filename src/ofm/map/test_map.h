@@ -2,6 +2,7 @@
 // above it.
 #pragma once
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>

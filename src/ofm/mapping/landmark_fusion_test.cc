@@ -122,16 +122,18 @@ TEST(LandmarkFusion, OtherPlacesAndDepthsAreNotFused) {
   MeasurementModel strict = test::FeatureWorld().model();
   strict.options.pixel_sigma = 0.5;
   strict.options.inverse_depth_sigma = 0.01;
-  const std::vector<std::pair<float, float>> errors = {{20.0F, 1.0F}, {0.0F, 1.5F}};
-  for (const auto& [shift_px, depth_factor] : errors) {
+  struct Error {
+    float shift_px, depth_factor;
+  };
+  for (const Error& error : {Error{20, 1}, Error{0, 1.5F}}) {
     TwoViews views;
     const MadeFrame wrong = Changed(views.frame, [&](FrameFeatures& features) {
-      for (Eigen::Vector2f& p : features.ideal_px) p.x() += shift_px;
-      for (float& depth : features.depth_m) depth *= depth_factor;
+      for (Eigen::Vector2f& p : features.ideal_px) p.x() += error.shift_px;
+      for (float& depth : features.depth_m) depth *= error.depth_factor;
       features.grid = FeatureGrid(features.ideal_px, 640, 480);
     });
     const KeyframeId second = views.AddSecond(wrong);
-    EXPECT_LT(FuseWithNeighbours(views.map, second, strict, {}), 3) << shift_px;
+    EXPECT_LT(FuseWithNeighbours(views.map, second, strict, {}), 3) << error.shift_px;
     EXPECT_EQ(FindProblem(views.map), "");
   }
 }

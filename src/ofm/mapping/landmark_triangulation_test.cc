@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ofm/mapping/test_mapping.h"
 
 namespace ofm {
@@ -116,7 +118,7 @@ TEST(LandmarkTriangulation, RefusesUnlikeDescriptors) {
 TEST(LandmarkTriangulation, RefusesFeaturesOffTheEpipolarLine) {
   TrueMap made(HalfDepth());
   made.Add(made.world.Frame(0));
-  // The camera of the second frame goes up and aside: errors along (1, -1) are off the line.
+  // The camera goes aside, so that the epipolar lines are level.
   const RigidTransform aside(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.2, 0, 0));
   const MadeFrame beside = made.world.Look(5, 0.5, aside * made.world.Frame(0).camera_from_world);
   made.Add(Changed(beside, [](FrameFeatures& features) {

@@ -119,6 +119,7 @@ void AdjustLocally(Map& map, KeyframeId current, const MeasurementModel& model,
 
 void AdjustWholeMap(Map& map, const MeasurementModel& model, const MappingOptions& options,
                     std::stop_token stop) {
+  if (map.keyframes().size() == 0) return;
   AdjustmentScope scope;
   map.keyframes().ForEach([&](const Keyframe& keyframe) { scope.free.insert(keyframe.id); });
   const KeyframeId oldest = *scope.free.begin();

@@ -83,11 +83,13 @@ std::vector<PointMatch> MatchLastFrame(const MeasurementModel& model,
                                        const TrackedFrame& last, const FrameView& view,
                                        double radius_px) {
   std::vector<char> taken(view.features.size(), 0);
+  std::vector<char> found_before(map.replacements.size(), 0);  // two names may have become one
   std::vector<PointMatch> matches;
   std::vector<int> last_features;
   for (std::size_t i = 0; i < last.features->size(); ++i) {
     std::optional<PointMatch> point = PointOfFeature(model, map, last, static_cast<int>(i));
     if (!point) continue;
+    if (point->landmark.valid() && found_before[point->landmark.value]) continue;
     const Eigen::Vector3d in_camera = view.camera_from_world * point->point_in_world;
     if (in_camera.z() <= 0.05) continue;
     const Eigen::Vector2d ideal = model.camera.ProjectIdeal(in_camera);
@@ -104,6 +106,7 @@ std::vector<PointMatch> MatchLastFrame(const MeasurementModel& model,
     if (found.feature < 0 || found.distance > options.max_hamming) continue;
     if (found.distance > options.ratio * found.second_distance) continue;
     taken[found.feature] = 1;
+    if (point->landmark.valid()) found_before[point->landmark.value] = 1;
     point->feature = found.feature;
     matches.push_back(*point);
     last_features.push_back(static_cast<int>(i));

@@ -233,6 +233,8 @@ TEST(Tracker, FollowsAMapThatWasMovedUnderIt) {
 TEST(Tracker, KeyframeCandidateTellsWhatTheResultTells) {
   TrackingOptions options;
   options.keyframe.max_frames = 3;
+  options.keyframe.inlier_ratio = 0.3;  // nothing else calls for one
+  options.keyframe.close_tracked = 0;
   Run run(DefaultWorld(), options);
   run.Step(0);
   std::vector<std::uint32_t> made;
