@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -13,9 +14,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string LoadError(std::string_view text) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   const auto path = folder.Write("names.txt", text);
-  return test::ErrorOf([&] { LoadClassNames(path); });
+  return ErrorOf([&] { LoadClassNames(path); });
 }
 
 TEST(ClassNames, CocoHasEightyWithThePersonFirst) {
@@ -36,7 +37,7 @@ TEST(ClassNames, UnknownNameHasNoClass) {
 }
 
 TEST(ClassNames, FileHasOneNameALineWhateverTheLineEnds) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   EXPECT_THAT(LoadClassNames(folder.Write("names.txt", "cup\r\ncoffee table \nrobot\n\n")),
               ElementsAre("cup", "coffee table", "robot"));
 }
@@ -45,7 +46,7 @@ TEST(ClassNames, BadFilesAreNamedWithTheLine) {
   EXPECT_THAT(LoadError(""), AllOf(HasSubstr("names.txt"), HasSubstr("no class name")));
   EXPECT_THAT(LoadError("a\n\nb\n"), HasSubstr("names.txt:2: empty class name"));
   EXPECT_THAT(LoadError("a\nb\na\n"), HasSubstr("names.txt:3: class 'a' is listed twice"));
-  EXPECT_THAT(test::ErrorOf([] { LoadClassNames("/no/such/names.txt"); }),
+  EXPECT_THAT(ErrorOf([] { LoadClassNames("/no/such/names.txt"); }),
               HasSubstr("/no/such/names.txt: cannot read"));
 }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <opencv2/core/utils/logger.hpp>
 
 #include "ofm/base/check.h"
 #include "ofm/base/error.h"
+#include "ofm/io/read_file.h"
 #include "ofm/perception/onnx_header.h"
 
 namespace ofm {
@@ -30,23 +30,8 @@ std::string Reason(const cv::Exception& exception) {
   return exception.err.substr(0, exception.err.find('\n'));
 }
 
-std::vector<char> ReadFile(const std::filesystem::path& path) {
-  if (path.empty()) {
-    throw Error("no network given; set perception.model (--model) to an ONNX file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path)) {
-    throw Error(path, "no such network; give the path of an ONNX file");
-  }
-  std::vector<char> bytes(std::filesystem::file_size(path));
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw Error(path, "cannot be read");
-  }
-  return bytes;
-}
-
 /// Width and height of the image input of `bytes`; `wanted` goes first where it is not empty.
-cv::Size FindInputSize(const std::vector<char>& bytes, const std::filesystem::path& path,
+cv::Size FindInputSize(const std::string& bytes, const std::filesystem::path& path,
                        cv::Size wanted) {
   const std::vector<OnnxInput> inputs = ReadOnnxInputs(bytes, path);
   const std::vector<std::int64_t>& shape = inputs.front().shape;
@@ -64,7 +49,10 @@ cv::Size FindInputSize(const std::vector<char>& bytes, const std::filesystem::pa
 }  // namespace
 
 DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path_(path) {
-  const std::vector<char> bytes = ReadFile(path);
+  if (path.empty()) {
+    throw Error("no network given; set perception.model (--model) to an ONNX file");
+  }
+  const std::string bytes = ReadFile(path);
   input_ = FindInputSize(bytes, path, input);
   const ScopedOpenCvSilence silence;
   try {

@@ -5,6 +5,7 @@
 
 #include <opencv2/core/utils/logger.hpp>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -16,13 +17,13 @@ using ::testing::Not;
 using ::testing::SizeIs;
 
 std::string LoadError(std::string_view bytes, cv::Size input = {}) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   const auto path = folder.Write("net.onnx", bytes);
-  return test::ErrorOf([&] { DnnNetwork(path, input); });
+  return ErrorOf([&] { DnnNetwork(path, input); });
 }
 
 TEST(DnnNetwork, GetsRedGreenBlueBetweenZeroAndOne) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   DnnNetwork network(folder.Write("net.onnx", test::MakeYoloNetwork()));
   EXPECT_EQ(network.input_size(), cv::Size(64, 32));
   cv::Mat image(32, 64, CV_8UC3, cv::Scalar(0, 0, 0));
@@ -37,7 +38,7 @@ TEST(DnnNetwork, GetsRedGreenBlueBetweenZeroAndOne) {
 }
 
 TEST(DnnNetwork, ThreadsDoNotChangeTheOutputs) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   DnnNetwork network(folder.Write("net.onnx", test::MakeYoloNetwork()));
   cv::Mat image;
   cv::cvtColor(test::MakeTexture({64, 32}, 1), image, cv::COLOR_GRAY2BGR);
@@ -53,11 +54,11 @@ TEST(DnnNetwork, ThreadsDoNotChangeTheOutputs) {
 }
 
 TEST(DnnNetwork, MissingFileIsNamed) {
-  EXPECT_THAT(test::ErrorOf([] { DnnNetwork("/no/such/net.onnx"); }),
-              HasSubstr("/no/such/net.onnx: no such network"));
-  EXPECT_THAT(test::ErrorOf([] { DnnNetwork(std::filesystem::temp_directory_path()); }),
-              HasSubstr("no such network"));
-  EXPECT_THAT(test::ErrorOf([] { DnnNetwork(""); }), HasSubstr("set perception.model"));
+  EXPECT_THAT(ErrorOf([] { DnnNetwork("/no/such/net.onnx"); }),
+              HasSubstr("/no/such/net.onnx: does not exist"));
+  EXPECT_THAT(ErrorOf([] { DnnNetwork(std::filesystem::temp_directory_path()); }),
+              HasSubstr("is a folder, not a file"));
+  EXPECT_THAT(ErrorOf([] { DnnNetwork(""); }), HasSubstr("set perception.model"));
 }
 
 TEST(DnnNetwork, WhatOpenCvCannotLoadIsOneLineAndNothingOnStderr) {
@@ -103,7 +104,7 @@ TEST(DnnNetwork, SizeThatTheNetworkCannotTakeIsOneLineAndNothingOnStderr) {
 }
 
 TEST(DnnNetwork, ImageOfAnotherSizeIsAProgrammersError) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   DnnNetwork network(folder.Write("net.onnx", test::MakeYoloNetwork()));
   EXPECT_THROW(network.Run(cv::Mat(40, 40, CV_8UC3)), std::logic_error);
 }

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -27,7 +28,7 @@ TEST(MakeSegmenter, NoneSeesNothing) {
 }
 
 TEST(MakeSegmenter, MasksAreBesideTheSequenceUnlessSaidOtherwise) {
-  const test::TemporaryFolder sequence, elsewhere;
+  const TestFolder sequence, elsewhere;
   std::filesystem::create_directory(sequence.path() / "mask");
   cv::imwrite((sequence.path() / "mask/1.5.png").string(), cv::Mat(8, 8, CV_8UC1, cv::Scalar(1)));
   cv::imwrite((elsewhere.path() / "1.5.png").string(), cv::Mat::zeros(8, 8, CV_8UC1));
@@ -43,13 +44,13 @@ TEST(MakeSegmenter, MasksAreBesideTheSequenceUnlessSaidOtherwise) {
 }
 
 TEST(MakeSegmenter, MissingMaskFolderIsNamed) {
-  EXPECT_THAT(test::ErrorOf(
-                  [] { MakeSegmenter({.segmenter = SegmenterKind::kMasks}, "/no/such/sequence"); }),
-              HasSubstr("/no/such/sequence/mask: no such folder"));
+  EXPECT_THAT(
+      ErrorOf([] { MakeSegmenter({.segmenter = SegmenterKind::kMasks}, "/no/such/sequence"); }),
+      HasSubstr("/no/such/sequence/mask: no such folder"));
 }
 
 TEST(MakeSegmenter, YoloTakesModelClassesAndThresholdFromTheOptions) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   PerceptionOptions options;
   Set(options, "segmenter=yolo-seg");
   Set(options, "model=" + folder.Write("net.onnx", test::MakeYoloNetwork()).string());
@@ -64,14 +65,14 @@ TEST(MakeSegmenter, YoloTakesModelClassesAndThresholdFromTheOptions) {
 
 TEST(MakeSegmenter, YoloNeedsAModelAndBothSidesOfTheInput) {
   PerceptionOptions options{.segmenter = SegmenterKind::kYoloSeg};
-  EXPECT_THAT(test::ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("perception.model"));
+  EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("perception.model"));
   options.input_width = 64;
-  EXPECT_THAT(test::ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("set together"));
+  EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("set together"));
 }
 
 TEST(MakeSegmenter, UnknownSegmenterIsToldWithTheKnownOnes) {
   PerceptionOptions options;
-  EXPECT_THAT(test::ErrorOf([&] { Set(options, "segmenter=yolo"); }),
+  EXPECT_THAT(ErrorOf([&] { Set(options, "segmenter=yolo"); }),
               HasSubstr("none | masks | yolo-seg"));
 }
 

@@ -4,10 +4,10 @@
 
 #include <map>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "ofm/base/error.h"
+#include "ofm/io/image_file.h"
 #include "ofm/perception/class_names.h"
 
 namespace ofm {
@@ -19,8 +19,7 @@ cv::Mat ReadInstanceImage(const std::filesystem::path& path, cv::Size size) {
   if (!std::filesystem::is_regular_file(path)) {
     throw Error(path, "no mask for this frame; add the file or choose another segmenter");
   }
-  const cv::Mat ids = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-  if (ids.empty()) throw Error(path, "cannot be decoded as an image; write it again");
+  const cv::Mat ids = LoadImage(path);
   if (ids.type() != CV_8UC1 && ids.type() != CV_16UC1) {
     throw Error(path, fmt::format("is {}; a mask has one channel of 8 or 16 bits with instance ids",
                                   cv::typeToString(ids.type())));

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/class_names.h"
 #include "ofm/perception/test_support.h"
 
@@ -29,14 +30,14 @@ class MaskFolderSegmenterTest : public ::testing::Test {
 
   std::string SegmentError(const std::string& name) const {
     MaskFolderSegmenter segmenter = Segmenter();
-    return test::ErrorOf([&] { segmenter.Segment(Frame(name)); });
+    return ErrorOf([&] { segmenter.Segment(Frame(name)); });
   }
 
   static RgbdFrame Frame(const std::string& name) {
     return test::MakeFrame(cv::Mat::zeros(30, 40, CV_8UC3), name);
   }
 
-  test::TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 /// What was drawn comes back, for both depths of PNG.
@@ -86,7 +87,7 @@ TEST_F(MaskFolderSegmenterTest, ClassIsFoundInTheListOrAddedToIt) {
 }
 
 TEST_F(MaskFolderSegmenterTest, MissingFolderIsNamed) {
-  EXPECT_THAT(test::ErrorOf([] {
+  EXPECT_THAT(ErrorOf([] {
                 MaskFolderSegmenter({"/no/such/mask", {}, "person"});
               }),
               HasSubstr("/no/such/mask: no such folder of masks"));
@@ -99,7 +100,16 @@ TEST_F(MaskFolderSegmenterTest, MissingMaskIsNamedWithWhatToDo) {
 
 TEST_F(MaskFolderSegmenterTest, DamagedFileIsNamed) {
   folder_.Write("1.5.png", "this is no image");
-  EXPECT_THAT(SegmentError("1.5"), HasSubstr("1.5.png: cannot be decoded"));
+  EXPECT_THAT(SegmentError("1.5"), HasSubstr("1.5.png: is neither a PNG"));
+}
+
+TEST_F(MaskFolderSegmenterTest, TruncatedFileIsNamed) {
+  cv::Mat ids(30, 40, CV_8UC1);
+  cv::randu(ids, 0, 9);
+  WriteMask("1.5", ids);
+  const auto path = folder_.path() / "1.5.png";
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_THAT(SegmentError("1.5"), HasSubstr("1.5.png: is "));
 }
 
 TEST_F(MaskFolderSegmenterTest, WrongSizeIsToldWithBothSizes) {

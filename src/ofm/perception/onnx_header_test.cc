@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -14,7 +15,7 @@ using ::testing::SizeIs;
 
 std::vector<OnnxInput> Read(std::string_view bytes) { return ReadOnnxInputs(bytes, "net.onnx"); }
 std::string ReadError(std::string_view bytes) {
-  return test::ErrorOf([&] { Read(bytes); });
+  return ErrorOf([&] { Read(bytes); });
 }
 
 TEST(OnnxHeader, TellsNameAndShapeOfTheInput) {

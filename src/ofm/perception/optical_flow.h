@@ -12,11 +12,11 @@
 namespace ofm {
 
 struct OpticalFlowOptions {
-  int window_px = 15;                ///< side of the window compared
-  int levels = 3;                    ///< of the pyramid, each half the size of the one before
-  int iterations = 10;               ///< at most, per level
-  double epsilon_px = 0.01;          ///< a smaller step ends the iterations
-  double forward_backward_px = 1.0;  ///< a point tracked back must return this near; 0 = no check
+  int window_px = 15;              ///< side of the window compared
+  int levels = 4;                  ///< of the pyramid, each half the size of the one before
+  int iterations = 30;             ///< at most, per level
+  double epsilon_px = 0.03;        ///< a smaller step ends the iterations
+  double forward_backward_px = 0;  ///< a point tracked back must return this near; 0 = no check
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

@@ -45,7 +45,7 @@ TEST(OpticalFlow, FollowsAKnownShiftToATenthOfAPixel) {
   for (const Eigen::Vector2f& shift :
        {Eigen::Vector2f(0.4F, -0.7F), Eigen::Vector2f(13.25F, 6.5F)}) {
     const auto points = Grid(40);
-    const FlowResult flow = Track(image, Shifted(image, shift), points);
+    const FlowResult flow = Track(image, Shifted(image, shift), points, {.epsilon_px = 0.01});
     ASSERT_EQ(flow.size(), points.size());
     EXPECT_GE(CountTracked(flow), points.size() * 99 / 100);
     for (std::size_t i = 0; i < flow.size(); ++i) {
@@ -100,8 +100,8 @@ TEST(OpticalFlow, BackwardCheckFindsCoveredPoints) {
     }
     return count;
   };
-  const FlowResult checked = Track(image, covered, points);
-  const FlowResult unchecked = Track(image, covered, points, {.forward_backward_px = 0});
+  const FlowResult checked = Track(image, covered, points, {.forward_backward_px = 1});
+  const FlowResult unchecked = Track(image, covered, points);
   EXPECT_GE(count_inside(unchecked), 30U);
   EXPECT_LE(count_inside(checked) * 5, count_inside(unchecked));
   EXPECT_GT(std::count(checked.status.begin(), checked.status.end(), FlowStatus::kInconsistent), 0);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -83,7 +84,7 @@ TEST(YoloDecoder, OutputsAreToldApartByRankInEitherOrder) {
 TEST(YoloDecoder, OtherOutputsAreRefusedWithTheirShapes) {
   const Tensors tensors;
   const auto error = [](const std::vector<cv::Mat>& outputs, int classes = kClasses) {
-    return test::ErrorOf([&] { SelectYoloOutputs(outputs, classes); });
+    return ErrorOf([&] { SelectYoloOutputs(outputs, classes); });
   };
   EXPECT_THAT(error({tensors.cells_}), HasSubstr("(1x10x84)"));
   EXPECT_THAT(error({}), HasSubstr("not those of a YOLO segmentation network"));

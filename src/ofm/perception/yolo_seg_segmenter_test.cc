@@ -7,6 +7,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/perception/class_names.h"
 #include "ofm/perception/test_support.h"
 
@@ -27,7 +28,7 @@ class SmallNetwork : public ::testing::Test {
         {.score_threshold = 0.5});
   }
 
-  test::TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 /// The network's box is x 12 to 52, y 8 to 24; its mask is where the image is blue.
@@ -60,14 +61,14 @@ TEST_F(SmallNetwork, FrameOfAnotherShapeIsLetterboxed) {
 }
 
 TEST_F(SmallNetwork, NetworkWithoutMasksIsRefusedAtOnce) {
-  EXPECT_THAT(test::ErrorOf([&] { Segmenter({.has_prototypes = false}); }),
+  EXPECT_THAT(ErrorOf([&] { Segmenter({.has_prototypes = false}); }),
               AllOf(HasSubstr("net.onnx: the outputs (1x7x32) are not those of a YOLO"),
                     Not(HasSubstr("\n"))));
 }
 
 TEST_F(SmallNetwork, ClassesMustHaveNames) {
   const auto path = folder_.Write("net.onnx", test::MakeYoloNetwork());
-  EXPECT_THAT(test::ErrorOf([&] {
+  EXPECT_THAT(ErrorOf([&] {
                 YoloSegSegmenter({path, CocoClassNames(), {}}, {});
               }),
               HasSubstr("net.onnx: the network tells 2 classes apart but 80 have a name"));
@@ -142,9 +143,9 @@ TEST_P(RealNetworks, FileThatEndsTooEarlyIsRefused) {
   std::ifstream file(Model(), std::ios::binary);
   std::string bytes(2000000, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   const auto path = folder.Write("half.onnx", bytes);
-  EXPECT_THAT(test::ErrorOf([&] {
+  EXPECT_THAT(ErrorOf([&] {
                 YoloSegSegmenter({path, CocoClassNames(), {}}, {});
               }),
               HasSubstr("half.onnx: is no ONNX network or ends too early"));
