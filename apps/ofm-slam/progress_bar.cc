@@ -51,8 +51,7 @@ void ProgressBar::OnFrame(const FrameReport& report) {
   if (!last && drawn_ns_ != 0 && now_ns - drawn_ns_ < interval_ns) return;
   drawn_ns_ = now_ns;
   const std::string line = Line(report, static_cast<double>(now_ns - start_ns_) * 1e-9);
-  const std::string shown =
-      terminal_ ? fmt::format("\r{}\x1b[K", line) : fmt::format("{}\n", line);
+  const std::string shown = terminal_ ? fmt::format("\r{}\x1b[K", line) : fmt::format("{}\n", line);
   std::fputs(shown.c_str(), stderr);
   std::fflush(stderr);
 }

@@ -31,7 +31,7 @@ struct EpipolarOptions {
   double ransac_confidence = 0.99;
   int ransac_iterations = 500;    ///< at most
   int min_points = 30;            ///< fewer static candidates give no verdict
-  double min_inlier_share = 0.5;  ///< of the candidates; below, the matrix is not believed
+  double min_inlier_share = 0.8;  ///< of the candidates; below, the matrix is not believed
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

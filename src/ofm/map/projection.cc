@@ -1,6 +1,5 @@
 #include "ofm/map/projection.h"
 
-
 namespace ofm {
 
 std::optional<Projection> ProjectLandmark(const PinholeCamera& camera,

@@ -3,9 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <stop_token>
 
-#include "ofm/base/mutex.h"
 #include "ofm/io/frame_source.h"
 
 namespace ofm {
@@ -19,8 +17,9 @@ struct PacingClock {
 /// The machine's steady clock.
 PacingClock SteadyPacingClock();
 
-/// Gives each frame when it is due; of several that are due by the time it is asked, only the latest, as a
-/// camera would: the others are dropped and counted. The first frame is due when it is first asked for.
+/// Gives each frame when it is due; of several that are due by the time it is asked, only the
+/// latest, as a camera would: the others are dropped and counted. The first frame is due when it is
+/// first asked for.
 class PacedSource : public FrameSource {
  public:
   PacedSource(std::unique_ptr<FrameSource> source, PacingClock clock);

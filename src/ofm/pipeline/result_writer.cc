@@ -1,8 +1,7 @@
 #include "ofm/pipeline/result_writer.h"
 
-#include <sys/resource.h>
-
 #include <ceres/version.h>
+#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
@@ -28,9 +27,8 @@ Json StatisticsJson(const std::vector<double>& durations_ms) {
 }
 
 Json CountsJson(const RunCounts& counts) {
-  const double share = counts.frames == 0
-                           ? 0
-                           : static_cast<double>(counts.frames_tracked) / counts.frames;
+  const double share =
+      counts.frames == 0 ? 0 : static_cast<double>(counts.frames_tracked) / counts.frames;
   return {{"frames", counts.frames},
           {"frames_tracked", counts.frames_tracked},
           {"tracked_share", share},

@@ -8,12 +8,12 @@ namespace ofm {
 
 /// When a frame becomes a keyframe (figures as published for ORB-SLAM2).
 struct KeyframeOptions {
-  double inlier_ratio = 0.8;   ///< of the reference keyframe's landmarks; fewer call for a keyframe
-  int max_frames = 30;         ///< since the last keyframe
-  int min_inliers = 15;        ///< fewer make no keyframe
-  int close_tracked = 100;     ///< fewer tracked close points call for a keyframe, …
-  int close_untracked = 70;    ///< … where more than so many could be added
-  int max_waiting = 3;         ///< keyframes that may wait for mapping
+  double inlier_ratio = 0.8;  ///< of the reference keyframe's landmarks; fewer call for a keyframe
+  int max_frames = 30;        ///< since the last keyframe
+  int min_inliers = 15;       ///< fewer make no keyframe
+  int close_tracked = 100;    ///< fewer tracked close points call for a keyframe, …
+  int close_untracked = 70;   ///< … where more than so many could be added
+  int max_waiting = 3;        ///< keyframes that may wait for mapping
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
