@@ -15,10 +15,10 @@ using test::FeatureWorldOptions;
 using test::MadeFrame;
 
 /// A tracker, and a map that takes every keyframe that it proposes at once.
-class Run {
+class TrackingRun {
  public:
-  explicit Run(const FeatureWorldOptions& world = DefaultWorld(),
-               const TrackingOptions& options = {})
+  explicit TrackingRun(const FeatureWorldOptions& world = DefaultWorld(),
+                       const TrackingOptions& options = {})
       : world_(world), tracker_(world_.model(), options, 1) {}
 
   TrackingResult Step(const MadeFrame& frame) {
@@ -63,7 +63,7 @@ FeatureWorldOptions WorldOf(CameraPathKind kind) {
 TEST(Tracker, WaitsForAFrameWithEnoughFeaturesThatHaveDepth) {
   FeatureWorldOptions world = DefaultWorld();
   world.depthless_share = 0.9;
-  Run run(world);
+  TrackingRun run(world);
   const TrackingResult result = run.Step(0);
   EXPECT_EQ(result.status, TrackingStatus::kWaiting);
   EXPECT_FALSE(HasPose(result.status));
@@ -72,7 +72,7 @@ TEST(Tracker, WaitsForAFrameWithEnoughFeaturesThatHaveDepth) {
 }
 
 TEST(Tracker, FirstFrameBeginsTheMapAtTheOrigin) {
-  Run run;
+  TrackingRun run;
   const MadeFrame frame = run.world().Frame(7);
   const TrackingResult result = run.Step(frame);
   EXPECT_EQ(result.status, TrackingStatus::kInitialized);
@@ -88,7 +88,7 @@ TEST(Tracker, FirstFrameBeginsTheMapAtTheOrigin) {
 class TrackerPaths : public testing::TestWithParam<CameraPathKind> {};
 
 TEST_P(TrackerPaths, FollowsTheCameraWithinAMillimetre) {
-  Run run(WorldOf(GetParam()));
+  TrackingRun run(WorldOf(GetParam()));
   EXPECT_EQ(run.Step(0).status, TrackingStatus::kInitialized);
   for (std::uint32_t i = 1; i < 40; ++i) {
     const MadeFrame frame = run.world().Frame(i);
@@ -108,7 +108,7 @@ TEST(Tracker, FollowsTheCameraWithNoisyFeatures) {
   world.depth_sigma = 1.4e-3;
   world.depthless_share = 0.1;
   world.descriptor_noise_bits = 10;
-  Run run(world);
+  TrackingRun run(world);
   run.Step(0);
   double sum_m2 = 0;
   for (std::uint32_t i = 1; i < 40; ++i) {
@@ -126,7 +126,7 @@ TEST(Tracker, PredictsWithConstantVelocityWhateverTheTimeBetweenFrames) {
   TrackingOptions options;
   options.search_radius_px = 3;  // so narrow that only a right prediction finds anything
   options.doubtful_share = 0;    // nobody else is asked
-  Run run(DefaultWorld(), options);
+  TrackingRun run(DefaultWorld(), options);
   const RigidTransform start = run.world().Frame(0).camera_from_world;
   const Vector6d twist_per_s = (Vector6d() << 0.15, -0.05, 0.1, 0.02, 0.1, 0.05).finished();
   const auto look = [&](std::uint32_t id, double time_s) {
@@ -145,7 +145,7 @@ TEST(Tracker, PredictsWithConstantVelocityWhateverTheTimeBetweenFrames) {
 }
 
 TEST(Tracker, SurvivesDroppedFrames) {
-  Run run;
+  TrackingRun run;
   for (const std::uint32_t i : {0U, 1U, 2U, 4U, 5U, 8U, 9U, 11U}) {
     const MadeFrame frame = run.world().Frame(i);
     const TrackingResult result = run.Step(frame);
@@ -156,7 +156,7 @@ TEST(Tracker, SurvivesDroppedFrames) {
 }
 
 TEST(Tracker, IsLostWhenNothingIsSeenAndRelocalisesAfterwards) {
-  Run run;
+  TrackingRun run;
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
   for (std::uint32_t i = 5; i < 8; ++i) {
     const TrackingResult lost = run.Step(test::MakeBlindFrame(run.world().Frame(i)));
@@ -175,7 +175,7 @@ TEST(Tracker, IsLostWhenNothingIsSeenAndRelocalisesAfterwards) {
 }
 
 TEST(Tracker, StaysLostInAPlaceThatItDoesNotKnow) {
-  Run run;
+  TrackingRun run;
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
   FeatureWorldOptions other = DefaultWorld();
   other.landmarks.seed = 99;
@@ -190,7 +190,7 @@ TEST(Tracker, StaysLostInAPlaceThatItDoesNotKnow) {
 
 /// The status after a jump by 0.3 m and 12 degrees at frame 5.
 TrackingStatus StatusAfterJump(const TrackingOptions& options) {
-  Run run(DefaultWorld(), options);
+  TrackingRun run(DefaultWorld(), options);
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
   const RigidTransform jump(ExpSo3({0, 0.2, 0}), {0.3, 0, 0});
   const MadeFrame before = run.world().Frame(4);
@@ -209,7 +209,7 @@ TEST(Tracker, AsksTheKeyframeWhenTheLastFrameDoesNotLeadOn) {
 }
 
 TEST(Tracker, FollowsAMapThatWasMovedUnderIt) {
-  Run run;
+  TrackingRun run;
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
   const RigidTransform moved_from_map(ExpSo3({0.1, 0.2, -0.1}), {0.5, -0.3, 0.2});
   std::vector<KeyframeId> keyframes;
@@ -235,7 +235,7 @@ TEST(Tracker, KeyframeCandidateTellsWhatTheResultTells) {
   options.keyframe.max_frames = 3;
   options.keyframe.inlier_ratio = 0.3;  // nothing else calls for one
   options.keyframe.close_tracked = 0;
-  Run run(DefaultWorld(), options);
+  TrackingRun run(DefaultWorld(), options);
   run.Step(0);
   std::vector<std::uint32_t> made;
   for (std::uint32_t i = 1; i < 10; ++i) {
@@ -255,7 +255,7 @@ TEST(Tracker, KeyframeCandidateTellsWhatTheResultTells) {
 }
 
 TEST(Tracker, SightingsAreTheLandmarksLookedForEachOnce) {
-  Run run;
+  TrackingRun run;
   run.Step(0);
   for (std::uint32_t i = 1; i < 4; ++i) {
     const TrackingResult result = run.Step(i);
@@ -276,7 +276,7 @@ TEST(Tracker, GivesTheSameBytesEveryTime) {
   FeatureWorldOptions world = DefaultWorld();
   world.pixel_sigma = 0.5;
   world.descriptor_noise_bits = 10;
-  Run a(world), b(world);
+  TrackingRun a(world), b(world);
   for (std::uint32_t i = 0; i < 12; ++i) {
     // Frame 6 is blind, so that frame 7 draws random samples.
     const MadeFrame made = a.world().Frame(i);
