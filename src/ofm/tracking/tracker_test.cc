@@ -265,7 +265,8 @@ TEST(Tracker, SightingsAreTheLandmarksLookedForEachOnce) {
       if (sighting.found) found.insert(sighting.landmark);
     }
     for (const LandmarkId id : result.landmarks) {
-      if (id.valid()) EXPECT_TRUE(named.insert(id).second) << "a landmark in two features";
+      if (!id.valid()) continue;
+      EXPECT_TRUE(named.insert(id).second) << "a landmark in two features";
     }
     EXPECT_EQ(found, named);
     EXPECT_EQ(static_cast<int>(named.size()), result.inliers);
