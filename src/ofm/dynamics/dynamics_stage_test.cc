@@ -17,6 +17,9 @@ using ::testing::IsEmpty;
 
 const std::vector<std::string> kClasses = {"person", "cup"};
 
+/// Believes a fundamental matrix on which half of the points agree: these scenes have many movers.
+const DynamicsOptions kHalf{.epipolar = {.min_inlier_share = 0.5}};
+
 class DynamicsStageTest : public ::testing::Test {
  protected:
   DynamicsStageTest() { frame_.gray = cv::Mat::zeros(480, 640, CV_8UC1); }
@@ -24,7 +27,7 @@ class DynamicsStageTest : public ::testing::Test {
   DynamicsStage Stage(const DynamicsOptions& options = {}) const {
     return DynamicsStage(options, scene_.camera, kClasses);
   }
-  DynamicMask Process(const FlowResult& flow, const DynamicsOptions& options = {}) const {
+  DynamicMask Process(const FlowResult& flow, const DynamicsOptions& options = kHalf) const {
     return Stage(options).Process({frame_, segmentation_, flow});
   }
   void AddInstance(std::uint32_t class_id, const cv::Rect& box) {
@@ -132,7 +135,7 @@ TEST_F(DynamicsStageTest, MotionUnderTheThresholdIsLeft) {
   const test::Motion motion{.camera_shift_m = {0.05, 0, 0}, .mover_shift_m = {0, -0.012, 0}};
   const FlowResult flow = scene_.Flow(motion, 1);  // 4 px
   EXPECT_THAT(Process(flow).dynamic_points, IsEmpty());
-  const DynamicsOptions sharper{.epipolar = {.threshold_px = 2}};
+  const DynamicsOptions sharper{.epipolar = {.threshold_px = 2, .min_inlier_share = 0.5}};
   EXPECT_GT(Compare(flow, Process(flow, sharper)).share_of_mover, 0.95);
 }
 

@@ -107,7 +107,7 @@ TEST(Mapper, InsertKeepsTheLandmarksThatTrackingFound) {
     EXPECT_EQ(keyframe.landmarks[i], candidate.landmarks[i]);
     EXPECT_EQ(mapping.map().GetLandmark(keyframe.landmarks[i]).observations.size(), 2U);
   }
-  EXPECT_GT(known, 200U);
+  EXPECT_GT(known, 150U);
   EXPECT_LE(mapping.map().landmarks().size(), before + frame.shown.size() - known);
   EXPECT_EQ(FindProblem(mapping.map()), "");
 }
