@@ -19,6 +19,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  ofm-slam demo\n"
     "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam evaluate out/trajectory.txt desk/groundtruth.txt --sequence desk\n"
     "  ofm-slam run --help";
@@ -33,6 +34,7 @@ int RunCommandLine(int argc, char** argv) {
   app.require_subcommand(0, 1);  // none is reported below: CLI11 would hide a misspelt one
   ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
+  ofm::AddDemoCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
