@@ -19,6 +19,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  ofm-slam demo\n"
     "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam evaluate out/trajectory.txt desk/groundtruth.txt --sequence desk\n"
     "  ofm-slam run --help";
@@ -34,6 +35,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
   ofm::AddEvaluateMapCommand(app);
+  ofm::AddDemoCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -35,23 +35,32 @@ Source OpenSource(const RunSettings& settings, std::shared_ptr<const RgbdSequenc
   return source;
 }
 
-/// Errors against ground truth; empty where there is none, or too few poses to compare.
-std::optional<TrajectoryEvaluation> Evaluate(const RgbdSequence& sequence,
-                                             const RunSettings& settings,
-                                             const Trajectory& estimate) {
+/// The ground truth beside a sequence and how many of the run's frames have some.
+struct Truth {
+  Trajectory trajectory;
+  EvaluationOptions options;
+};
+
+/// Empty where there is none. Throws Error where it cannot be read: better now than after the run.
+std::optional<Truth> LoadTruth(const RgbdSequence& sequence, const FrameRange& range) {
   if (!sequence.groundtruth()) return {};
-  const Trajectory groundtruth = LoadTrajectory(*sequence.groundtruth());
+  Truth truth{LoadTrajectory(*sequence.groundtruth()), {}};
   std::vector<std::int64_t> stamps;
-  const std::size_t first = settings.range.first;
-  const std::size_t count =
-      settings.range.max_count > 0 ? settings.range.max_count : sequence.size();
+  const std::size_t first = range.first;
+  const std::size_t count = range.max_count > 0 ? range.max_count : sequence.size();
   for (std::size_t i = first; i < std::min(sequence.size(), first + count); ++i) {
     stamps.push_back(sequence.entries()[i].color.stamp_ns);
   }
-  EvaluationOptions options;
-  options.frames = CountInSpan(stamps, groundtruth);
+  truth.options.frames = CountInSpan(stamps, truth.trajectory);
+  return truth;
+}
+
+/// Errors against ground truth; empty where there is none, or too few poses to compare.
+std::optional<TrajectoryEvaluation> Evaluate(const std::optional<Truth>& truth,
+                                             const Trajectory& estimate) {
+  if (!truth || estimate.size() < 2) return {};
   try {
-    return EvaluateTrajectory(estimate, groundtruth, options);
+    return EvaluateTrajectory(estimate, truth->trajectory, truth->options);
   } catch (const Error& error) {
     spdlog::warn("no errors against ground truth: {}", error.what());
     return {};
@@ -63,8 +72,9 @@ std::optional<TrajectoryEvaluation> Evaluate(const RgbdSequence& sequence,
 RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   const PinholeCamera camera = ResolveCamera(settings.camera, settings.sequence);
   const auto sequence = std::make_shared<const RgbdSequence>(settings.sequence, camera);
-  Source source = OpenSource(settings, sequence);
+  const std::optional<Truth> truth = LoadTruth(*sequence, settings.range);
   auto segmenter = MakeSegmenter(settings.options.perception, settings.sequence);
+  Source source = OpenSource(settings, sequence);
   PrepareOutputFolder(settings.output);
 
   Slam slam(camera, settings.options, std::move(segmenter));
@@ -78,14 +88,16 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
                          ? RunThreaded(slam, *source.frames, context)
                          : RunSequential(slam, *source.frames, context);
   }
+  if (report.outcome.counts.frames == 0 && !report.outcome.error.empty()) {
+    throw Error(report.outcome.error);
+  }
   if (source.paced != nullptr) report.outcome.counts.frames_dropped = source.paced->dropped();
   report.description.version = OFM_VERSION;
   report.description.input = settings.sequence.string();
   report.description.runner = settings.threaded || settings.realtime ? "threaded" : "sequential";
   report.description.camera = camera;
-  report.description.evaluation = Evaluate(*sequence, settings, report.outcome.trajectory);
-  report.description.live_evaluation =
-      Evaluate(*sequence, settings, report.outcome.live_trajectory);
+  report.description.evaluation = Evaluate(truth, report.outcome.trajectory);
+  report.description.live_evaluation = Evaluate(truth, report.outcome.live_trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
   return report;
 }

@@ -29,8 +29,8 @@ struct RunReport {
 };
 
 /// Opens the sequence, runs the system and writes all results. Bad input is reported before
-/// anything is written; where a frame fails later, the results up to it are written and
-/// outcome.error tells why.
+/// anything is written, and so is a first frame that cannot be read; where a later one fails, the
+/// results up to it are written and outcome.error tells why.
 RunReport RunSession(const RunSettings& settings, std::stop_token stop = {});
 
 /// A summary for people, with units; ends in a newline.

@@ -2,6 +2,8 @@
 
 #include <time.h>
 
+#include <utility>
+
 #include "ofm/base/time.h"
 #include "ofm/base/timing.h"
 
@@ -21,6 +23,7 @@ PacedSource::PacedSource(std::unique_ptr<FrameSource> source, PacingClock clock)
     : source_(std::move(source)), clock_(std::move(clock)) {}
 
 std::optional<RgbdFrame> PacedSource::Next() {
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   std::optional<RgbdFrame> frame = ahead_ ? std::move(ahead_) : source_->Next();
   ahead_.reset();
   if (!frame) return {};
@@ -36,11 +39,21 @@ std::optional<RgbdFrame> PacedSource::Next() {
     return frame;
   }
   // Late: skip to the newest frame that is due.
-  while ((ahead_ = source_->Next()) && DueNs(*ahead_) <= now_ns) {
+  while (ReadAhead() && DueNs(*ahead_) <= now_ns) {
     frame = std::move(ahead_);
     ++dropped_;
   }
   return frame;
+}
+
+bool PacedSource::ReadAhead() {
+  try {
+    ahead_ = source_->Next();
+  } catch (const std::exception&) {
+    ahead_.reset();
+    error_ = std::current_exception();
+  }
+  return ahead_.has_value();
 }
 
 }  // namespace ofm

@@ -1,6 +1,7 @@
 // Plays a recording as fast as it was recorded.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 
@@ -33,9 +34,13 @@ class PacedSource : public FrameSource {
     return start_ns_ + frame.stamp_ns - first_stamp_ns_;
   }
 
+  /// False at the end, and where the source fails: the frame before it is to be given first.
+  bool ReadAhead();
+
   std::unique_ptr<FrameSource> source_;
   PacingClock clock_;
   std::optional<RgbdFrame> ahead_;  // read, not yet due when it was
+  std::exception_ptr error_;        // met while reading ahead, thrown by the next Next()
   bool started_ = false;
   std::int64_t start_ns_ = 0, first_stamp_ns_ = 0;
   std::size_t dropped_ = 0;

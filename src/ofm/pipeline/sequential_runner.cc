@@ -1,4 +1,5 @@
 #include <exception>
+#include <stdexcept>
 
 #include "ofm/base/time.h"
 #include "ofm/pipeline/back_end.h"
@@ -23,7 +24,9 @@ RunOutcome RunSequential(Slam& slam, FrameSource& source, const RunContext& cont
       map = back_end.Insert(std::move(*job));
       map = back_end.Refine();
     }
-  } catch (const std::runtime_error& error) {
+  } catch (const std::logic_error&) {
+    throw;
+  } catch (const std::exception& error) {
     outcome.error = error.what();
   }
   back_end.Finish(outcome);

@@ -1,4 +1,5 @@
 #include <exception>
+#include <stdexcept>
 #include <thread>
 
 #include "ofm/base/bounded_queue.h"
@@ -14,13 +15,30 @@ namespace {
 constexpr std::size_t kPreparedFrames = 2;
 constexpr std::size_t kKeyframeJobs = 8;
 
+/// How a thread of a run ended. Written by it, read after it was joined.
+struct ThreadEnd {
+  std::string error;             ///< of the input or a library
+  std::exception_ptr exception;  ///< a programmer's error
+};
+
+template <class Work>
+ThreadEnd Guard(Work&& work) {
+  try {
+    work();
+  } catch (const std::logic_error&) {
+    return {{}, std::current_exception()};
+  } catch (const std::exception& error) {
+    return {error.what(), {}};
+  }
+  return {};
+}
+
 /// What the threads of a run share.
 struct Exchange {
   BoundedQueue<PreparedFrame> prepared{kPreparedFrames};
   BoundedQueue<KeyframeJob> jobs{kKeyframeJobs};
-  Latest<std::shared_ptr<const MapSnapshot>> map;
-  std::string error;           // written by the front end's thread, read after it was joined
-  StageTimes front_end_times;  // likewise
+  Latest<std::shared_ptr<const MapSnapshot>> map;  // null once the back end has failed
+  StageTimes front_end_times;                      // read after the thread was joined
 };
 
 /// Lets the threads end, however the scope is left.
@@ -32,8 +50,8 @@ struct QueueCloser {
   }
 };
 
-void RunFrontEnd(Slam& slam, FrameSource& source, std::stop_token stop, Exchange& exchange) {
-  try {
+ThreadEnd RunFrontEnd(Slam& slam, FrameSource& source, std::stop_token stop, Exchange& exchange) {
+  ThreadEnd end = Guard([&] {
     while (!stop.stop_requested()) {
       std::optional<RgbdFrame> frame = source.Next();
       if (!frame) break;
@@ -41,17 +59,39 @@ void RunFrontEnd(Slam& slam, FrameSource& source, std::stop_token stop, Exchange
           slam.front_end().Process(std::move(*frame), exchange.front_end_times);
       if (!exchange.prepared.Push(std::move(prepared), stop)) break;
     }
-  } catch (const std::runtime_error& error) {
-    exchange.error = error.what();
-  }
+  });
   exchange.prepared.Close();
+  return end;
 }
 
-void RunBackEnd(BackEnd& back_end, Exchange& exchange) {
-  while (std::optional<KeyframeJob> job = exchange.jobs.Pop()) {
-    exchange.map.Set(back_end.Insert(std::move(*job)));
-    // Refining may wait while further keyframes do.
-    if (exchange.jobs.size() == 0) exchange.map.Set(back_end.Refine());
+ThreadEnd RunBackEnd(BackEnd& back_end, Exchange& exchange) {
+  ThreadEnd end = Guard([&] {
+    while (std::optional<KeyframeJob> job = exchange.jobs.Pop()) {
+      exchange.map.Set(back_end.Insert(std::move(*job)));
+      // Refining may wait while further keyframes do.
+      if (exchange.jobs.size() == 0) exchange.map.Set(back_end.Refine());
+    }
+  });
+  if (!end.error.empty() || end.exception) {
+    exchange.jobs.Close();
+    exchange.map.Set(nullptr);
+  }
+  return end;
+}
+
+/// Tracks what the front end prepared until that ends, or the back end has failed.
+void Track(TrackingLoop& tracking, Exchange& exchange) {
+  while (std::optional<PreparedFrame> prepared = exchange.prepared.Pop()) {
+    const int waiting = static_cast<int>(exchange.jobs.size());
+    std::shared_ptr<const MapSnapshot> map = exchange.map.Get();
+    if (!map) return;
+    std::optional<KeyframeJob> job = tracking.Process(*prepared, std::move(map), waiting);
+    if (!job) continue;
+    const bool first = !job->candidate.reference.valid();
+    exchange.jobs.Push(std::move(*job));
+    // Without a map there is nothing to track against: wait for the first one.
+    if (!first) continue;
+    exchange.map.WaitUntil([](const auto& value) { return !value || value->keyframe_count > 0; });
   }
 }
 
@@ -64,21 +104,18 @@ RunOutcome RunThreaded(Slam& slam, FrameSource& source, const RunContext& contex
   BackEnd back_end(slam);
   Exchange exchange;
   exchange.map.Set(slam.mapper().Snapshot());
+  ThreadEnd front_end_end, back_end_end;
   {
-    std::jthread front_end([&] { RunFrontEnd(slam, source, context.stop, exchange); });
-    std::jthread mapping([&] { RunBackEnd(back_end, exchange); });
+    std::jthread front_end(
+        [&] { front_end_end = RunFrontEnd(slam, source, context.stop, exchange); });
+    std::jthread mapping([&] { back_end_end = RunBackEnd(back_end, exchange); });
     const QueueCloser closer{exchange};
-    while (std::optional<PreparedFrame> prepared = exchange.prepared.Pop()) {
-      const int waiting = static_cast<int>(exchange.jobs.size());
-      std::optional<KeyframeJob> job = tracking.Process(*prepared, exchange.map.Get(), waiting);
-      if (!job) continue;
-      const bool first = !job->candidate.reference.valid();
-      exchange.jobs.Push(std::move(*job));
-      // Without a map there is nothing to track against: wait for the first one.
-      if (first) exchange.map.WaitUntil([](const auto& map) { return map->keyframe_count > 0; });
-    }
+    Track(tracking, exchange);
   }
-  outcome.error = exchange.error;
+  for (const ThreadEnd& end : {front_end_end, back_end_end}) {
+    if (end.exception) std::rethrow_exception(end.exception);
+    if (outcome.error.empty()) outcome.error = end.error;
+  }
   outcome.times.Merge(exchange.front_end_times);
   back_end.Finish(outcome);
   tracking.Finish(back_end, outcome);
