@@ -32,11 +32,13 @@ struct PerceptionOptions {
   std::string class_names_file = {};  ///< one class name a line; empty = COCO's 80
   std::string masks_folder = {};      ///< empty = "mask" in the sequence's folder
   std::string mask_class = "person";  ///< what the instances of masks_folder are
-  double score_threshold = 0.25;      ///< least class probability of an instance
-  double nms_threshold = 0.7;         ///< overlap (IoU) over which the weaker box is dropped
-  int max_instances = 100;            ///< the most confident are kept
-  int input_width = 0;                ///< of the network [px]; 0 = as the model file says
-  int input_height = 0;               ///< of the network [px]; 0 = as the model file says
+  /// Least class probability of an instance. Lower than usual for detection: a person missed costs
+  /// the pose more than a wrong one does, and the map weighs labels by their confidence.
+  double score_threshold = 0.15;
+  double nms_threshold = 0.7;  ///< overlap (IoU) over which the weaker box is dropped
+  int max_instances = 100;     ///< the most confident are kept
+  int input_width = 0;         ///< of the network [px]; 0 = as the model file says
+  int input_height = 0;        ///< of the network [px]; 0 = as the model file says
   OpticalFlowOptions flow = {};
 
   template <class Self, class Visitor>
