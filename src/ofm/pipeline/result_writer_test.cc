@@ -1,0 +1,193 @@
+#include "ofm/pipeline/result_writer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "ofm/io/camera_file.h"
+#include "ofm/io/read_file.h"
+#include "ofm/io/test_folder.h"
+#include "ofm/io/trajectory_file.h"
+#include "ofm/pipeline/test_support.h"
+
+namespace ofm {
+namespace {
+
+using nlohmann::json;
+using test::Recording;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr std::array kFiles = {
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",     "map.ot",
+    "map.bt",         "map_labels.csv",      "config.yaml",   "camera.yaml", "summary.json"};
+
+/// What a real run leaves.
+RunOutcome RunOnce(const Recording& recording) {
+  test::PlaySource source(recording.images);
+  return RunSequential(*test::MakeSlam(recording), source, {});
+}
+
+RunDescription Describe(const Recording& recording) {
+  RunDescription description;
+  description.version = "1.2.3";
+  description.input = "some/desk";
+  description.runner = "sequential";
+  description.camera = recording.sequence.camera();
+  return description;
+}
+
+/// The summary without what no two runs have in common.
+json WithoutTimings(const std::filesystem::path& file) {
+  json summary = json::parse(ReadFile(file));
+  for (const char* key : {"wall_s", "process_cpu_s", "peak_memory_mib", "stages"}) {
+    EXPECT_EQ(summary.erase(key), 1U) << key;
+  }
+  return summary;
+}
+
+TEST(WriteResults, WritesEveryFileAndNothingElse) {
+  const Recording recording(5);
+  const TestFolder folder;
+  WriteResults(folder.path(), RunOnce(recording), test::QuickOptions(), Describe(recording));
+  for (const char* name : kFiles) {
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / name)) << name;
+    EXPECT_FALSE(std::filesystem::is_empty(folder.path() / name)) << name;
+  }
+  EXPECT_EQ(folder.CountEntries(), kFiles.size());
+}
+
+TEST(WriteResults, FilesAreReadBackAsWhatTheyAre) {
+  const Recording recording(5);
+  const RunOutcome outcome = RunOnce(recording);
+  const TestFolder folder;
+  WriteResults(folder.path(), outcome, test::QuickOptions(), Describe(recording));
+  EXPECT_EQ(LoadTrajectory(folder.path() / "trajectory.txt").size(), outcome.trajectory.size());
+  EXPECT_EQ(LoadTrajectory(folder.path() / "keyframes.txt").size(), outcome.counts.keyframes);
+  EXPECT_EQ(LoadCamera(folder.path() / "camera.yaml").fx, recording.sequence.camera().fx);
+  EXPECT_THAT(ReadFile(folder.path() / "map.ply"), testing::StartsWith("ply\n"));
+  const std::unique_ptr<octomap::AbstractOcTree> tree(
+      octomap::AbstractOcTree::read((folder.path() / "map.ot").string()));
+  ASSERT_NE(dynamic_cast<octomap::ColorOcTree*>(tree.get()), nullptr);
+  EXPECT_GT(tree->size(), 100U);
+  octomap::OcTree binary(0.1);
+  ASSERT_TRUE(binary.readBinary((folder.path() / "map.bt").string()));
+  EXPECT_DOUBLE_EQ(binary.getResolution(), test::QuickOptions().dense.resolution_m);
+}
+
+TEST(WriteResults, ConfigLoadsBackToTheSameOptions) {
+  const Recording recording(1);
+  SlamOptions options = test::QuickOptions();
+  options.seed = 42;
+  options.perception.model = "models/a network.onnx";
+  options.dynamics.dynamic_classes = {"person", "dog"};
+  options.features.scale_factor = 1.234567890123;
+  const TestFolder folder;
+  WriteResults(folder.path(), {}, options, Describe(recording));
+  SlamOptions loaded;
+  LoadOptionsYaml(folder.path() / "config.yaml", OptionFields(loaded));
+  EXPECT_EQ(PrintOptionsYaml(OptionFields(loaded)), PrintOptionsYaml(OptionFields(options)));
+  EXPECT_EQ(loaded.seed, 42U);
+  EXPECT_EQ(loaded.perception.model, options.perception.model);
+  EXPECT_EQ(loaded.features.scale_factor, options.features.scale_factor);
+}
+
+TEST(WriteResults, SameSeedGivesTheSameBytesInEveryFile) {
+  const Recording recording(12);
+  const TestFolder first, second;
+  for (const TestFolder* folder : {&first, &second}) {
+    WriteResults(folder->path(), RunOnce(recording), test::QuickOptions(), Describe(recording));
+  }
+  for (const std::string name : kFiles) {
+    if (name == "summary.json") continue;
+    EXPECT_TRUE(ReadFile(first.path() / name) == ReadFile(second.path() / name)) << name;
+  }
+  EXPECT_EQ(WithoutTimings(first.path() / "summary.json"),
+            WithoutTimings(second.path() / "summary.json"));
+}
+
+TEST(WriteResults, WithoutASemanticMapItWritesNone) {
+  const Recording recording(1);
+  const TestFolder folder;
+  WriteResults(folder.path(), {}, {}, Describe(recording));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.ot"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "summary.json"));
+}
+
+TEST(WriteResults, NamesAFileThatCannotBeWritten) {
+  const Recording recording(1);
+  const TestFolder folder;
+  std::filesystem::create_directories(folder.path() / "keyframes.txt" / "in_the_way");
+  EXPECT_THAT(ErrorOf([&] { WriteResults(folder.path(), {}, {}, Describe(recording)); }),
+              HasSubstr("keyframes.txt"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "trajectory.txt")) << "those before it";
+}
+
+TEST(SummaryJson, HasCountsErrorsTimesVersionsAndSeed) {
+  const Recording recording(5);
+  const RunOutcome outcome = RunOnce(recording);
+  SlamOptions options = test::QuickOptions();
+  options.seed = 9;
+  RunDescription description = Describe(recording);
+  description.evaluation = EvaluateTrajectory(outcome.trajectory, recording.sequence.GroundTruth(),
+                                              {.frames = std::size_t{5}});
+  const json summary = json::parse(SummaryJson(outcome, options, description));
+  EXPECT_EQ(summary["version"], "1.2.3");
+  EXPECT_EQ(summary["input"], "some/desk");
+  EXPECT_EQ(summary["runner"], "sequential");
+  EXPECT_EQ(summary["seed"], 9);
+  EXPECT_TRUE(summary["error"].is_null());
+  EXPECT_TRUE(summary["libraries"].contains("opencv"));
+  EXPECT_TRUE(summary["libraries"].contains("ceres"));
+  EXPECT_EQ(summary["counts"]["frames"], 5);
+  EXPECT_EQ(summary["counts"]["frames_tracked"], 5);
+  EXPECT_EQ(summary["counts"]["tracked_share"], 1.0);
+  EXPECT_EQ(summary["counts"]["frames_dropped"], 0);
+  EXPECT_EQ(summary["counts"]["keyframes"], outcome.counts.keyframes);
+  EXPECT_EQ(summary["trajectory"]["ate"]["pairs"], 5);
+  EXPECT_EQ(summary["trajectory"]["coverage"]["ratio"], 1.0);
+  EXPECT_FALSE(summary.contains("trajectory_live"));
+  EXPECT_EQ(summary["map"]["cloud_points"], outcome.semantic_map->cloud_in_world.size());
+  EXPECT_EQ(summary["stages"]["tracking"]["cpu"]["count"], 5);
+  EXPECT_GT(summary["stages"]["features"]["wall"]["median_ms"], 0);
+  EXPECT_GT(summary["wall_s"], 0);
+  EXPECT_GT(summary["peak_memory_mib"], 1);
+}
+
+TEST(SummaryJson, TellsWhyARunEndedEarly) {
+  RunOutcome outcome;
+  outcome.error = "/x/7.png: is \"truncated\"";
+  const json summary = json::parse(SummaryJson(outcome, {}, {}));
+  EXPECT_EQ(summary["error"], outcome.error);
+  EXPECT_EQ(summary["counts"]["tracked_share"], 0.0);
+}
+
+TEST(PrepareOutputFolder, MakesTheFolderAndLeavesNothingInIt) {
+  const TestFolder folder;
+  const std::filesystem::path made = folder.path() / "a" / "b";
+  PrepareOutputFolder(made);
+  EXPECT_TRUE(std::filesystem::is_empty(made));
+  PrepareOutputFolder(made);  // that it exists is no error
+}
+
+TEST(PrepareOutputFolder, SaysWhatToDoWhereItCannotBeMade) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.Write("file", "");
+  EXPECT_THAT(ErrorOf([&] { PrepareOutputFolder(file / "out"); }),
+              AllOf(HasSubstr((file / "out").string()), HasSubstr("--output")));
+  EXPECT_THAT(ErrorOf([&] { PrepareOutputFolder(file); }), HasSubstr("--output"));
+}
+
+TEST(PrepareOutputFolder, SaysWhatToDoWhereItCannotBeWrittenTo) {
+  // Of all folders this one lets nobody write, not even root.
+  if (!std::filesystem::is_directory("/proc/self")) GTEST_SKIP() << "no /proc here";
+  EXPECT_THAT(ErrorOf([] { PrepareOutputFolder("/proc/self"); }),
+              AllOf(HasSubstr("/proc/self: cannot be written to"), HasSubstr("--output")));
+}
+
+}  // namespace
+}  // namespace ofm
