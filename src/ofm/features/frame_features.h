@@ -32,8 +32,8 @@ class OctaveScales {
   int levels() const { return static_cast<int>(scales_.size()); }
   /// scale_factor^octave.
   float Scale(int octave) const { return scales_[octave]; }
-  /// The octave in which a point that octave 0 shows from `max_distance_m` appears from `distance_m`;
-  /// clamped to the pyramid.
+  /// The octave in which a point that octave 0 shows from `max_distance_m` appears from
+  /// `distance_m`; clamped to the pyramid.
   int PredictOctave(float max_distance_m, float distance_m) const;
 
  private:
