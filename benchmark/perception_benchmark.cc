@@ -172,7 +172,7 @@ void CullByFlow(benchmark::State& state) {
   flow_options.epsilon_px = static_cast<double>(state.range(1)) / 100;
   flow_options.forward_backward_px = static_cast<double>(state.range(2));
   OpticalFlow flow(flow_options);
-  const DynamicsStage stage({}, *FindCameraPreset("tum-fr1"), {});
+  DynamicsStage stage({}, *FindCameraPreset("tum-fr1"), {});
   std::vector<Eigen::Vector2f> points;
   double actor_points = 0, static_points = 0, actor_moving = 0, static_moving = 0, masked = 0;
   std::size_t index = 0;

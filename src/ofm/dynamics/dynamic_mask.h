@@ -11,6 +11,7 @@ namespace ofm {
 struct DynamicMask {
   cv::Mat mask;                                 ///< CV_8UC1 of the image's size, 255 = dynamic
   std::vector<Eigen::Vector2f> dynamic_points;  ///< [px] found moving by optical flow
+  cv::Mat static_probability;                   ///< CV_8UC1, 255 = surely; empty = not told
   double masked_share = 0;                      ///< of the image's pixels, 0 to 1
 };
 

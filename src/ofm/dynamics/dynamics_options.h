@@ -8,18 +8,21 @@
 #include <vector>
 
 #include "ofm/base/options.h"
+#include "ofm/dynamics/motion_options.h"
 
 namespace ofm {
 
 enum class DynamicsMode {
   kOff,    ///< everything is static
   kPaper,  ///< instances of dynamic classes and points off their epipolar line are dynamic
+  kFull,   ///< whatever moves, by flow, depth, instances and what was believed before
 };
 
 inline EnumNameList<DynamicsMode> EnumNames(DynamicsMode) {
-  static constexpr std::array<std::pair<DynamicsMode, std::string_view>, 2> kNames{{
+  static constexpr std::array<std::pair<DynamicsMode, std::string_view>, 3> kNames{{
       {DynamicsMode::kOff, "off"},
       {DynamicsMode::kPaper, "paper"},
+      {DynamicsMode::kFull, "full"},
   }};
   return kNames;
 }
@@ -52,7 +55,8 @@ struct DynamicsOptions {
   std::vector<std::string> dynamic_classes = {"person"};  ///< moving whatever they do
   int dilation_px = 7;                                    ///< radius by which their masks grow
   double exclusion_radius_px = 10;                        ///< around a point found moving by flow
-  EpipolarOptions epipolar = {};
+  EpipolarOptions epipolar = {};                          ///< of mode `paper`
+  MotionOptions motion = {};                              ///< of mode `full`
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -61,7 +65,8 @@ struct DynamicsOptions {
     visit("dilation_px", self.dilation_px, "radius by which their masks grow [px]", Range{0, 100});
     visit("exclusion_radius_px", self.exclusion_radius_px,
           "radius masked around a point found moving by flow [px]", Range{0, 100});
-    visit("epipolar", self.epipolar, "motion by epipolar geometry");
+    visit("epipolar", self.epipolar, "motion by epipolar geometry, mode paper");
+    visit("motion", self.motion, "motion by flow and depth, mode full");
   }
 };
 

@@ -56,9 +56,12 @@ DynamicsStage::DynamicsStage(const DynamicsOptions& options, const PinholeCamera
                              const std::vector<std::string>& class_names)
     : options_(options),
       camera_(camera),
-      dynamic_classes_(FindDynamicClasses(options.dynamic_classes, class_names)) {}
+      dynamic_classes_(FindDynamicClasses(options.dynamic_classes, class_names)) {
+  if (options.mode == DynamicsMode::kFull) full_.emplace(options, camera, dynamic_classes_);
+}
 
-DynamicMask DynamicsStage::Process(const DynamicsInput& input) const {
+DynamicMask DynamicsStage::Process(const DynamicsInput& input) {
+  if (full_) return full_->Process(input.frame, input.segmentation);
   DynamicMask result;
   result.mask = cv::Mat::zeros(input.frame.gray.size(), CV_8UC1);
   if (options_.mode == DynamicsMode::kOff) return result;

@@ -1,6 +1,7 @@
 // Decides what in a frame must not be trusted.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "ofm/camera/rgbd_frame.h"
 #include "ofm/dynamics/dynamic_mask.h"
 #include "ofm/dynamics/dynamics_options.h"
+#include "ofm/dynamics/full_dynamics.h"
 #include "ofm/perception/optical_flow.h"
 #include "ofm/perception/segmentation.h"
 
@@ -21,8 +23,8 @@ struct DynamicsInput {
   const FlowResult& flow;  ///< of the last frame's key points into this one; may be empty
 };
 
-/// The paper's Algorithm 1 and its union with the masks of people. Process is a pure function of
-/// its input; one object serves any number of threads.
+/// Modes `off`, `paper` (the paper's Algorithm 1 and its union with the masks of people; a function
+/// of its input alone) and `full` (see FullDynamics). One object serves one thread.
 class DynamicsStage {
  public:
   /// `class_names` are the segmenter's. Throws Error for a dynamic class that is not among them,
@@ -33,7 +35,7 @@ class DynamicsStage {
   /// The union of the dynamic classes' masks, dilated, and discs around the points that flow finds
   /// off their epipolar lines. The fundamental matrix is that of the points off the masks; where it
   /// cannot be had or believed, flow gives no verdict.
-  DynamicMask Process(const DynamicsInput& input) const;
+  DynamicMask Process(const DynamicsInput& input);
 
  private:
   void AddInstances(const Segmentation& segmentation, cv::Mat& mask) const;
@@ -43,6 +45,7 @@ class DynamicsStage {
   DynamicsOptions options_;
   PinholeCamera camera_;
   std::vector<ClassId> dynamic_classes_;
+  std::optional<FullDynamics> full_;
 };
 
 }  // namespace ofm

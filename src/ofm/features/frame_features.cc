@@ -8,11 +8,15 @@
 namespace ofm {
 namespace {
 
+/// The pixel of `image` nearest to a place.
+cv::Point NearestPixel(const cv::Mat& image, const Eigen::Vector2f& place) {
+  return {std::clamp(static_cast<int>(std::lround(place.x())), 0, image.cols - 1),
+          std::clamp(static_cast<int>(std::lround(place.y())), 0, image.rows - 1)};
+}
+
 /// Depth at a pixel [m]; 0 where there is none.
 float DepthAt(const cv::Mat& depth_m, const Eigen::Vector2f& pixel) {
-  const int column = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, depth_m.cols - 1);
-  const int row = std::clamp(static_cast<int>(std::lround(pixel.y())), 0, depth_m.rows - 1);
-  const float depth = depth_m.at<float>(row, column);
+  const float depth = depth_m.at<float>(NearestPixel(depth_m, pixel));
   return std::isfinite(depth) && depth > 0 ? depth : 0;
 }
 
@@ -34,7 +38,8 @@ int OctaveScales::PredictOctave(float max_distance_m, float distance_m) const {
 }
 
 std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
-                                                       const PinholeCamera& camera) {
+                                                       const PinholeCamera& camera,
+                                                       const cv::Mat& static_probability) {
   OFM_CHECK(features.keypoints.size() == features.descriptors.size());
   auto frame = std::make_shared<FrameFeatures>();
   frame->keypoints = std::move(features.keypoints);
@@ -44,6 +49,9 @@ std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const 
   for (const Keypoint& keypoint : frame->keypoints) {
     frame->ideal_px.push_back(camera.Undistort(keypoint.pixel.cast<double>()).cast<float>());
     frame->depth_m.push_back(DepthAt(depth_m, keypoint.pixel));
+    if (static_probability.empty()) continue;
+    const cv::Point pixel = NearestPixel(static_probability, keypoint.pixel);
+    frame->static_probability.push_back(static_probability.at<std::uint8_t>(pixel) / 255.0F);
   }
   frame->grid = FeatureGrid(frame->ideal_px, camera.width, camera.height);
   return frame;

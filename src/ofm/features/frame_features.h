@@ -19,9 +19,13 @@ struct FrameFeatures {
   std::vector<Descriptor> descriptors;
   std::vector<Eigen::Vector2f> ideal_px;  ///< undistorted [px]
   std::vector<float> depth_m;             ///< 0 = not measured
+  std::vector<float> static_probability;  ///< 0 to 1; empty = all 1
   FeatureGrid grid;                       ///< over ideal_px
 
   std::size_t size() const { return keypoints.size(); }
+  float StaticProbability(int feature) const {
+    return static_probability.empty() ? 1.0F : static_probability[feature];
+  }
 };
 
 /// Pyramid scales by octave, so that nobody computes powers.
@@ -41,9 +45,10 @@ class OctaveScales {
 };
 
 /// Undistorts `features` and reads their depth from `depth_m` (CV_32FC1 [m], 0 = none). Places
-/// without depth get 0.
+/// without depth get 0. `static_probability` (CV_8UC1, 255 = surely static) may be empty.
 std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
-                                                       const PinholeCamera& camera);
+                                                       const PinholeCamera& camera,
+                                                       const cv::Mat& static_probability = {});
 
 /// Reads depth anew, allowing for the time between the two images: while the camera moves, the
 /// depth image shows the scene from elsewhere. `depth_camera_from_color_camera` is the camera's

@@ -22,8 +22,9 @@ struct Landmark {
   float min_distance_m = 0, max_distance_m = 0;         ///< at which the pyramid can see it
   KeyframeId first_keyframe;                            ///< the one that made it
   std::vector<Observation> observations;                ///< by increasing keyframe id
-  int visible_count = 1;  ///< frames in whose view it should have been
-  int found_count = 1;    ///< frames that matched it
+  int visible_count = 1;         ///< frames in whose view it should have been
+  int found_count = 1;           ///< frames that matched it
+  float static_probability = 1;  ///< 0 to 1: how surely it does not move
 
   /// The feature that `keyframe` sees it by; -1 where it does not.
   int FeatureIn(KeyframeId keyframe) const {

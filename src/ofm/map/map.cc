@@ -71,6 +71,7 @@ LandmarkId Map::AddLandmark(const Eigen::Vector3d& position_in_world, KeyframeId
   Landmark landmark;
   landmark.position_in_world = position_in_world;
   landmark.first_keyframe = keyframe;
+  landmark.static_probability = keyframes_.Get(keyframe).features->StaticProbability(feature);
   const LandmarkId id = landmarks_.Insert(std::move(landmark));
   replacements_.emplace_back();
   AddObservation(id, keyframe, feature);
@@ -168,6 +169,14 @@ void Map::CountSightings(LandmarkId id, int visible, int found) {
   Landmark& edited = landmarks_.Edit(landmark->id);
   edited.visible_count += visible;
   edited.found_count += found;
+}
+
+void Map::UpdateStaticProbability(LandmarkId id, float seen) {
+  constexpr float kGain = 0.3F;  // four frames that see it move bring a sure one under 0.3
+  const Landmark* landmark = FindLandmark(id);
+  if (landmark == nullptr || landmark->static_probability == seen) return;
+  Landmark& edited = landmarks_.Edit(landmark->id);
+  edited.static_probability += kGain * (seen - edited.static_probability);
 }
 
 std::shared_ptr<const MapSnapshot> Map::Snapshot() {

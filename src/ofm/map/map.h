@@ -65,6 +65,9 @@ class Map {
   void RefreshLandmark(LandmarkId id);
   /// Adds to the counts by which tracking judges a landmark; ignores ids that are gone.
   void CountSightings(LandmarkId id, int visible, int found);
+  /// Moves the landmark's static probability towards `seen` (0 to 1), what one frame says of it;
+  /// ignores ids that are gone.
+  void UpdateStaticProbability(LandmarkId id, float seen);
 
   const Keyframe* FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
   const Keyframe& GetKeyframe(KeyframeId id) const { return keyframes_.Get(id); }

@@ -41,8 +41,9 @@ MapExtract Extract(const Map& map, const AdjustmentScope& scope, const Measureme
       const auto pose = pose_index.find(o.keyframe);
       if (pose == pose_index.end()) continue;
       const Keyframe& keyframe = map.GetKeyframe(o.keyframe);
-      extract.problem.observations.push_back(
-          {pose->second, point, model.Observe(*keyframe.features, o.feature)});
+      PointObservation seen = model.Observe(*keyframe.features, o.feature);
+      seen.weight *= landmark.static_probability;
+      extract.problem.observations.push_back({pose->second, point, seen});
       extract.observations.emplace_back(id, o.keyframe);
     }
   }

@@ -16,7 +16,11 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
                           const std::vector<Sighting>& sightings) {
   for (const Sighting& sighting : sightings) {
     map_.CountSightings(sighting.landmark, 1, sighting.found ? 1 : 0);
+    if (sighting.static_probability) {
+      map_.UpdateStaticProbability(sighting.landmark, *sighting.static_probability);
+    }
   }
+  RemoveMoving(sightings);
   Keyframe keyframe;
   keyframe.frame_id = candidate.frame_id;
   keyframe.stamp_ns = candidate.stamp_ns;
@@ -35,6 +39,16 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   }
   CreateFromDepth(id);
   return id;
+}
+
+/// Landmarks that the sightings have shown to move.
+void Mapper::RemoveMoving(const std::vector<Sighting>& sightings) {
+  for (const Sighting& sighting : sightings) {
+    const Landmark* landmark = map_.FindLandmark(sighting.landmark);
+    const bool moves =
+        landmark != nullptr && landmark->static_probability < options_.min_static_probability;
+    if (moves) map_.RemoveLandmark(landmark->id);
+  }
 }
 
 void Mapper::CreateFromDepth(KeyframeId id) {

@@ -34,6 +34,7 @@ class Mapper {
     KeyframeId made_by;
   };
 
+  void RemoveMoving(const std::vector<Sighting>& sightings);
   void CreateFromDepth(KeyframeId id);
   void CullYoung(KeyframeId current);
 

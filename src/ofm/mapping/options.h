@@ -7,15 +7,16 @@ namespace ofm {
 
 /// Local mapping (figures as published for ORB-SLAM2).
 struct MappingOptions {
-  int min_close_landmarks = 100;  ///< features with depth that become landmarks even when far
-  int neighbours = 10;            ///< keyframes to triangulate and fuse with
-  double min_found_ratio = 0.25;  ///< found / visible, under which a young landmark goes
-  int min_observations = 2;       ///< of a landmark two keyframes after it was made
-  int max_bundle_keyframes = 20;  ///< free ones in local bundle adjustment
-  int max_fixed_keyframes = 30;   ///< fixed ones
-  double redundant_share = 0.9;   ///< of a keyframe's landmarks seen by three others: it goes
-  int max_hamming = 50;           ///< bits, when fusing and triangulating
-  double min_parallax_deg = 1;    ///< when triangulating
+  int min_close_landmarks = 100;        ///< features with depth that become landmarks even when far
+  int neighbours = 10;                  ///< keyframes to triangulate and fuse with
+  double min_found_ratio = 0.25;        ///< found / visible, under which a young landmark goes
+  int min_observations = 2;             ///< of a landmark two keyframes after it was made
+  double min_static_probability = 0.3;  ///< of a landmark; under it, it goes
+  int max_bundle_keyframes = 20;        ///< free ones in local bundle adjustment
+  int max_fixed_keyframes = 30;         ///< fixed ones
+  double redundant_share = 0.9;         ///< of a keyframe's landmarks seen by three others: it goes
+  int max_hamming = 50;                 ///< bits, when fusing and triangulating
+  double min_parallax_deg = 1;          ///< when triangulating
   BundleOptions bundle;
   BundleOptions final_bundle{10, 20, 1};  ///< over the whole map, at the end
 
@@ -28,6 +29,8 @@ struct MappingOptions {
           "found to visible, under which a young landmark goes", Range{0, 1});
     visit("min_observations", self.min_observations,
           "observers that a landmark needs two keyframes after it was made", Range{1, 100});
+    visit("min_static_probability", self.min_static_probability,
+          "static probability under which a landmark goes", Range{0, 1});
     visit("max_bundle_keyframes", self.max_bundle_keyframes,
           "free keyframes in local bundle adjustment", Range{1, 1000});
     visit("max_fixed_keyframes", self.max_fixed_keyframes,

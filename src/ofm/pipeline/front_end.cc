@@ -20,7 +20,7 @@ PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   }
   if (mode_ != DynamicsMode::kOff) {
     FlowResult flow;
-    {
+    if (mode_ == DynamicsMode::kPaper) {
       ScopedStageTimer timer(times, "optical_flow");
       flow = flow_.Advance(prepared.frame.gray, last_points_);
     }
@@ -31,7 +31,8 @@ PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   Features features = extractor_.Extract(prepared.frame.gray, prepared.dynamic.mask);
   last_points_.clear();
   for (const Keypoint& keypoint : features.keypoints) last_points_.push_back(keypoint.pixel);
-  prepared.features = MakeFrameFeatures(std::move(features), prepared.frame.depth_m, camera_);
+  prepared.features = MakeFrameFeatures(std::move(features), prepared.frame.depth_m, camera_,
+                                        prepared.dynamic.static_probability);
   return prepared;
 }
 

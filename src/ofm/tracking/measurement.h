@@ -40,6 +40,7 @@ struct MeasurementModel {
     seen.depth_m = frame.depth_m[feature];
     seen.pixel_sigma = options.pixel_sigma * scales.Scale(frame.keypoints[feature].octave);
     seen.inverse_depth_sigma = options.inverse_depth_sigma;
+    seen.weight = frame.StaticProbability(feature);
     return seen;
   }
 };

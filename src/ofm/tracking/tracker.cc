@@ -1,6 +1,8 @@
 #include "ofm/tracking/tracker.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "ofm/base/time.h"
 #include "ofm/map/covisibility.h"
@@ -125,7 +127,10 @@ std::optional<Tracker::Estimate> Tracker::OptimizeMatches(
   std::vector<PoseObservation> observations;
   observations.reserve(matches.size());
   for (const PointMatch& match : matches) {
-    observations.push_back({match.point_in_world, model_.Observe(*input.features, match.feature)});
+    PointObservation seen = model_.Observe(*input.features, match.feature);
+    const Landmark* landmark = input.map->FindLandmark(match.landmark);
+    if (landmark != nullptr) seen.weight *= landmark->static_probability;
+    observations.push_back({match.point_in_world, seen});
   }
   const PoseEstimate pose = OptimizePose(model_.camera, initial, observations, options_.pose);
   if (!pose.converged || !pose.camera_from_world.IsFinite()) return {};
@@ -232,16 +237,40 @@ TrackingResult Tracker::TrackLocalMap(const TrackingInput& input, const Estimate
   result.camera_from_world = refined->camera_from_world;
   result.reference = local.reference;
   result.camera_from_reference = result.camera_from_world * reference_pose->Inverse();
-  std::vector<LandmarkId> found;
+  std::map<LandmarkId, int> found;
   for (const PointMatch& match : refined->matches) {
     result.landmarks[match.feature] = match.landmark;
-    found.push_back(match.landmark);
+    found.emplace(match.landmark, match.feature);
   }
-  std::sort(found.begin(), found.end());
   for (const LandmarkId id : looked_for) {
-    result.sightings.push_back({id, std::binary_search(found.begin(), found.end(), id)});
+    const auto feature = found.find(id);
+    if (feature != found.end()) {
+      const float probability = input.features->StaticProbability(feature->second);
+      result.sightings.push_back({id, true, probability});
+    } else {
+      const bool moves = IsSeenMoving(input, result.camera_from_world, id);
+      result.sightings.push_back({id, false, moves ? std::optional(0.0F) : std::nullopt});
+    }
   }
   return result;
+}
+
+/// True where what moves in the image is as far away as the landmark: it is part of that, and not
+/// hidden by it.
+bool Tracker::IsSeenMoving(const TrackingInput& input, const RigidTransform& camera_from_world,
+                           LandmarkId id) const {
+  constexpr float kSameDepth_m = 0.15F;
+  const Landmark* landmark = input.map->FindLandmark(id);
+  if (input.moving_mask.empty() || input.depth_m.empty() || landmark == nullptr) return false;
+  const Eigen::Vector3d point = camera_from_world * landmark->position_in_world;
+  if (point.z() <= 0) return false;
+  const Eigen::Vector2d pixel = model_.camera.Project(point);
+  if (!model_.camera.IsInImage(pixel)) return false;
+  const cv::Point place(static_cast<int>(std::lround(pixel.x())),
+                        static_cast<int>(std::lround(pixel.y())));
+  const float depth = input.depth_m.at<float>(place);
+  return input.moving_mask.at<std::uint8_t>(place) != 0 && depth > 0 &&
+         std::abs(depth - static_cast<float>(point.z())) < kSameDepth_m;
 }
 
 void Tracker::Remember(const TrackingInput& input, const TrackingResult& result) {

@@ -35,6 +35,8 @@ class Tracker {
   std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,
                                             int min_inliers) const;
   std::optional<Estimate> Relocalize(const TrackingInput& input) const;
+  bool IsSeenMoving(const TrackingInput& input, const RigidTransform& camera_from_world,
+                    LandmarkId id) const;
   TrackingResult TrackLocalMap(const TrackingInput& input, const Estimate& estimate) const;
   std::optional<Estimate> OptimizeMatches(const TrackingInput& input, const RigidTransform& initial,
                                           const std::vector<PointMatch>& matches) const;

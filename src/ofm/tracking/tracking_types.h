@@ -33,6 +33,8 @@ struct TrackingInput {
   std::int64_t depth_stamp_ns = 0;  ///< of depth_m
   std::shared_ptr<const MapSnapshot> map;
   int keyframes_waiting = 0;  ///< for mapping; 0 where it is idle
+  /// CV_8UC1, 255 where something moves: landmarks found there move. Empty = nothing is told.
+  cv::Mat moving_mask;
 };
 
 /// A frame that should become a keyframe.
@@ -46,10 +48,12 @@ struct KeyframeCandidate {
   std::vector<LandmarkId> landmarks;  ///< by feature
 };
 
-/// That a landmark was looked for, and whether it was found.
+/// That a landmark was looked for, and what came of it.
 struct Sighting {
   LandmarkId landmark;
   bool found = false;
+  /// What the frame says of the landmark, 0 to 1; empty where it says nothing.
+  std::optional<float> static_probability = {};
 };
 
 struct TrackingResult {

@@ -1,0 +1,54 @@
+#include "ofm/dynamics/full_dynamics.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "ofm/dynamics/mask_dilation.h"
+
+namespace ofm {
+namespace {
+
+/// CV_8UC1, 255 = surely static. What nothing was told of has the prior's odds, and full weight.
+cv::Mat StaticProbability(const cv::Mat& log_odds_of_moving) {
+  constexpr double kNothingTold = 0.7;
+  cv::Mat odds, probability;
+  cv::exp(log_odds_of_moving, odds);
+  cv::divide(255.0 / kNothingTold, odds + 1.0, probability, CV_8U);
+  return probability;
+}
+
+}  // namespace
+
+FullDynamics::FullDynamics(const DynamicsOptions& options, const PinholeCamera& camera,
+                           std::vector<ClassId> dynamic_classes)
+    : options_(options),
+      dynamic_classes_(std::move(dynamic_classes)),
+      judge_(camera, options.motion) {}
+
+DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation) {
+  const LatticeFrame lattice_frame = judge_.lattice().MakeFrame(frame);
+  const MotionVerdict verdict =
+      judge_.Process({lattice_frame, InstancePrior(segmentation), frame.id.value}, state_);
+  DynamicMask result;
+  result.mask = cv::Mat::zeros(frame.gray.size(), CV_8UC1);
+  AddDilated(judge_.lattice().cells().ToImage(verdict.belief > 0), options_.dilation_px,
+             result.mask);
+  result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
+  result.masked_share =
+      static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
+  return result;
+}
+
+cv::Mat FullDynamics::InstancePrior(const Segmentation& segmentation) const {
+  const IdealLattice& cells = judge_.lattice().cells();
+  cv::Mat prior(cells.size(), CV_32FC1, cv::Scalar(0));
+  constexpr float kPresumedMoving = 4;
+  for (const Instance& instance : segmentation.instances) {
+    const bool is_dynamic = std::find(dynamic_classes_.begin(), dynamic_classes_.end(),
+                                      instance.class_id) != dynamic_classes_.end();
+    if (is_dynamic) prior.setTo(kPresumedMoving, cells.SampleNearest(instance.mask));
+  }
+  return prior;
+}
+
+}  // namespace ofm
