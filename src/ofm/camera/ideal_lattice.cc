@@ -80,11 +80,11 @@ IdealLattice::IdealLattice(const PinholeCamera& camera, int spacing_px, int mult
       reduced_px_.at<cv::Point2f>(row, column) = {reduced.x(), reduced.y()};
     }
   }
-  lattice_places_.create(camera.height, camera.width, CV_16SC2);
+  nearest_points_.create(camera.height, camera.width, CV_16SC2);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector2d place = Place(camera.Undistort({x, y}));
-      lattice_places_.at<cv::Vec2s>(y, x) = {
+      nearest_points_.at<cv::Vec2s>(y, x) = {
           static_cast<short>(std::clamp<long>(std::lround(place.x()), 0, cols_ - 1)),
           static_cast<short>(std::clamp<long>(std::lround(place.y()), 0, rows_ - 1))};
     }
@@ -107,7 +107,7 @@ cv::Mat IdealLattice::SampleMean(const cv::Mat& image) const {
 cv::Mat IdealLattice::ToImage(const cv::Mat& lattice_image) const {
   OFM_CHECK(lattice_image.size() == size());
   cv::Mat result;
-  cv::remap(lattice_image, result, lattice_places_, cv::noArray(), cv::INTER_NEAREST);
+  cv::remap(lattice_image, result, nearest_points_, cv::noArray(), cv::INTER_NEAREST);
   return result;
 }
 

@@ -31,6 +31,9 @@ class IdealLattice {
   /// The lattice's own camera: its pixels are the lattice's points, without distortion.
   const PinholeCamera& camera() const { return lattice_camera_; }
 
+  /// Per pixel of the camera's image, the nearest point (column, row). CV_16SC2.
+  const cv::Mat& nearest_points() const { return nearest_points_; }
+
   /// Values of the nearest pixel; 0 where the camera sees nothing.
   cv::Mat SampleNearest(const cv::Mat& image) const;
   /// Means over about a spacing, for grey images; 0 where the camera sees nothing.
@@ -45,7 +48,7 @@ class IdealLattice {
   PinholeCamera lattice_camera_;
   cv::Mat image_px_;        // CV_32FC2, per point: where the camera sees it
   cv::Mat reduced_px_;      // the same in an image reduced by the spacing
-  cv::Mat lattice_places_;  // CV_16SC2, per pixel of the image: the nearest point
+  cv::Mat nearest_points_;  // CV_16SC2, per pixel of the image: the nearest point
 };
 
 }  // namespace ofm

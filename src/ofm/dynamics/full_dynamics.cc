@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "ofm/dynamics/mask_dilation.h"
+#include "ofm/dynamics/mask_upsampling.h"
 
 namespace ofm {
 namespace {
@@ -31,8 +32,9 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
       judge_.Process({lattice_frame, InstancePrior(segmentation), frame.id.value}, state_);
   DynamicMask result;
   result.mask = cv::Mat::zeros(frame.gray.size(), CV_8UC1);
-  AddDilated(judge_.lattice().cells().ToImage(verdict.belief > 0), options_.dilation_px,
-             result.mask);
+  AddDilated(UpsampleMask(judge_.lattice().cells(), verdict.belief > 0, lattice_frame.depth_m,
+                          frame.depth_m),
+             options_.dilation_px, result.mask);
   result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
   result.masked_share =
       static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
