@@ -69,6 +69,8 @@ void AddRunCommand(CLI::App& app) {
                     "Mapping in a thread of its own (not reproducible to the byte)");
   command->add_flag("--realtime", settings.realtime,
                     "Play at the recorded pace, threaded, and drop frames that come too early");
+  command->add_option("--true-masks", settings.true_masks,
+                      "Folder of true instance masks (PNG): culling is measured against them");
   command->add_option("--start", settings.range.first, "First frame")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--frames", settings.range.max_count, "Frames at most")

@@ -75,6 +75,8 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   const std::optional<Truth> truth = LoadTruth(*sequence, settings.range);
   auto segmenter = MakeSegmenter(settings.options.perception, settings.sequence);
   Source source = OpenSource(settings, sequence);
+  std::optional<CullingMeter> meter;
+  if (!settings.true_masks.empty()) meter.emplace(settings.true_masks, settings.options.features);
   PrepareOutputFolder(settings.output);
 
   Slam slam(camera, settings.options, std::move(segmenter));
@@ -83,6 +85,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     ProgressBar progress(source.frames->size());
     RunContext context;
     if (!settings.quiet) context.observers.push_back(&progress);
+    if (meter) context.observers.push_back(&*meter);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -96,6 +99,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   report.description.input = settings.sequence.string();
   report.description.runner = settings.threaded || settings.realtime ? "threaded" : "sequential";
   report.description.camera = camera;
+  if (meter) report.description.culling = meter->counts();
   report.description.evaluation = Evaluate(truth, report.outcome.trajectory);
   report.description.live_evaluation = Evaluate(truth, report.outcome.live_trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
@@ -116,6 +120,12 @@ std::string FormatSummary(const RunReport& report) {
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
   text += fmt::format("culling     {:.1f} % of the pixels masked on average\n",
                       100 * counts.mean_masked_share);
+  if (const auto& culling = report.description.culling) {
+    text += fmt::format(
+        "            of the features on true actors {:.2f} % reach the pose, of the others {:.1f} "
+        "% are kept\n",
+        100 * culling->ActorShareInPose(), 100 * culling->StaticShareKept());
+  }
   text += fmt::format("time        {:.1f} s, {:.1f} frames/s, {:.1f} ms CPU per frame\n",
                       outcome.wall_s, outcome.wall_s > 0 ? counts.frames / outcome.wall_s : 0,
                       counts.frames > 0 ? 1e3 * outcome.process_cpu_s / counts.frames : 0);

@@ -15,7 +15,8 @@ namespace ofm {
 
 struct RunSettings {
   std::filesystem::path sequence, output;
-  std::string camera = "auto";  ///< preset, file or "auto"
+  std::string camera = "auto";       ///< preset, file or "auto"
+  std::filesystem::path true_masks;  ///< instance PNGs to measure culling against; may be empty
   FrameRange range;
   bool threaded = false;
   bool realtime = false;  ///< at the recorded pace; frames that come too early are dropped

@@ -139,15 +139,44 @@ float StaticSigma(const std::vector<Residual>& residuals, const cv::Mat& belief)
   return kSigmaPerMedian * *middle;
 }
 
-/// Takes back what is said against cells close behind something that moves: the flow's window
-/// reaches over its edge, and what it uncovers was not to be seen before.
-void ForgiveBackground(const cv::Mat& depth_m, const cv::Mat& moving_cells, cv::Mat& evidence) {
-  constexpr int kReach = 4;  // cells
-  constexpr float kNearer_m = 0.1F, kFar_m = 1e6F;
-  cv::Mat nearest(depth_m.size(), CV_32FC1, cv::Scalar(kFar_m));
-  depth_m.copyTo(nearest, (moving_cells | (evidence > 0)) & (depth_m > 0));
-  cv::erode(nearest, nearest, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8UC1));
-  evidence.setTo(0, (evidence > 0) & (depth_m > nearest + kNearer_m));
+/// Depths of the cells around one, where `source` is set.
+struct DepthsAround {
+  bool any = false, nearer = false, same = false;
+
+  DepthsAround(const cv::Mat& source, const cv::Mat& depth_m, cv::Point cell) {
+    constexpr int kReach = 4;  // cells
+    constexpr float kSame_m = 0.1F;
+    const float here = depth_m.at<float>(cell);
+    const int bottom = std::min(cell.y + kReach, source.rows - 1);
+    const int right = std::min(cell.x + kReach, source.cols - 1);
+    for (int y = std::max(cell.y - kReach, 0); y <= bottom; ++y) {
+      for (int x = std::max(cell.x - kReach, 0); x <= right; ++x) {
+        const float depth = depth_m.at<float>(y, x);
+        if (source.at<std::uint8_t>(y, x) == 0 || depth <= 0) continue;
+        any = true;
+        nearer |= depth < here - kSame_m;
+        same |= std::abs(depth - here) <= kSame_m;
+      }
+    }
+  }
+};
+
+/// Takes back what is said against cells beside something that moves: the flow's window reaches
+/// over its edge, and what it uncovers was not to be seen before. Cells as deep as what was
+/// believed to move are part of it.
+void ForgiveNeighbours(const cv::Mat& depth_m, const cv::Mat& believed_moving, cv::Mat& evidence) {
+  const cv::Mat against = evidence > 0;
+  for (int y = 0; y < evidence.rows; ++y) {
+    for (int x = 0; x < evidence.cols; ++x) {
+      const cv::Point cell(x, y);
+      if (against.at<std::uint8_t>(cell) == 0 || believed_moving.at<std::uint8_t>(cell) != 0) {
+        continue;
+      }
+      const DepthsAround believed(believed_moving, depth_m, cell);
+      const bool is_beside = believed.any && !believed.same;
+      if (is_beside || DepthsAround(against, depth_m, cell).nearer) evidence.at<float>(cell) = 0;
+    }
+  }
 }
 
 }  // namespace
@@ -183,7 +212,7 @@ cv::Mat FlowEvidence(const PinholeCamera& lattice_camera, const LatticePair& pai
         static_cast<float>(std::clamp((chi_square - options.flow.indifferent_chi_square) / 2,
                                       options.flow.static_log_odds, options.flow.moving_log_odds));
   }
-  ForgiveBackground(pair.current.depth_m, pair.belief > options.belief.limit / 2, evidence);
+  ForgiveNeighbours(pair.current.depth_m, pair.belief > options.belief.limit / 2, evidence);
   return evidence;
 }
 

@@ -69,6 +69,16 @@ void WriteMap(const std::filesystem::path& folder, const SemanticMap& map,
   });
 }
 
+Json CullingToJson(const CullingCounts& counts) {
+  return {{"actor_features", counts.actor_features},
+          {"actor_features_kept", counts.actor_features_kept},
+          {"actor_features_in_pose", counts.actor_features_in_pose},
+          {"static_features", counts.static_features},
+          {"static_features_kept", counts.static_features_kept},
+          {"actor_share_in_pose", counts.ActorShareInPose()},
+          {"static_share_kept", counts.StaticShareKept()}};
+}
+
 }  // namespace
 
 void PrepareOutputFolder(const std::filesystem::path& folder) {
@@ -96,6 +106,7 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   json["seed"] = options.seed;
   json["error"] = outcome.error.empty() ? Json(nullptr) : Json(outcome.error);
   json["counts"] = CountsJson(outcome.counts);
+  if (description.culling) json["culling"] = CullingToJson(*description.culling);
   if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
   if (description.live_evaluation) {
     json["trajectory_live"] = EvaluationToJson(*description.live_evaluation);

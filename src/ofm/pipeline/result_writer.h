@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ofm/eval/evaluation.h"
+#include "ofm/pipeline/culling_meter.h"
 #include "ofm/pipeline/options.h"
 #include "ofm/pipeline/run_outcome.h"
 
@@ -21,6 +22,7 @@ struct RunDescription {
   std::string runner;   ///< "sequential" or "threaded"
   PinholeCamera camera;
   std::optional<TrajectoryEvaluation> evaluation, live_evaluation;  ///< where there is ground truth
+  std::optional<CullingCounts> culling;                             ///< where there are true masks
 };
 
 /// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, map.ply, map.ot, map.bt,
