@@ -2,16 +2,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
+#include "ofm/geometry/rigid_transform.h"
+
 namespace ofm {
+
+/// The camera's motion from one frame to the next.
+struct FrameMotion {
+  std::int64_t last_stamp_ns = 0;  ///< of the frame before
+  RigidTransform current_from_last;
+};
 
 /// Where a frame must not be trusted, and the points that told so.
 struct DynamicMask {
   cv::Mat mask;                                 ///< CV_8UC1 of the image's size, 255 = dynamic
   std::vector<Eigen::Vector2f> dynamic_points;  ///< [px] found moving by optical flow
   cv::Mat static_probability;                   ///< CV_8UC1, 255 = surely; empty = not told
+  std::optional<FrameMotion> camera_motion;     ///< where the flow tells it
   double masked_share = 0;                      ///< of the image's pixels, 0 to 1
 };
 

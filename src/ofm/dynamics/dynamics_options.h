@@ -51,20 +51,26 @@ struct EpipolarOptions {
 };
 
 struct DynamicsOptions {
-  DynamicsMode mode = DynamicsMode::kPaper;
+  DynamicsMode mode = DynamicsMode::kFull;
   std::vector<std::string> dynamic_classes = {"person"};  ///< moving whatever they do
-  int dilation_px = 7;                                    ///< radius by which their masks grow
-  double exclusion_radius_px = 10;                        ///< around a point found moving by flow
-  EpipolarOptions epipolar = {};                          ///< of mode `paper`
-  MotionOptions motion = {};                              ///< of mode `full`
+  int dilation_px = 7;              ///< radius by which masks grow, mode `paper`
+  double exclusion_radius_px = 10;  ///< around a point found moving, mode `paper`
+  double crowded_share = 0.15;      ///< of the image masked, from which more features are taken
+  double crowded_features = 1.5;    ///< times as many
+  EpipolarOptions epipolar = {};    ///< of mode `paper`
+  MotionOptions motion = {};        ///< of mode `full`
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("mode", self.mode, "what is culled");
     visit("dynamic_classes", self.dynamic_classes, "classes that are moving whatever they do");
-    visit("dilation_px", self.dilation_px, "radius by which their masks grow [px]", Range{0, 100});
+    visit("dilation_px", self.dilation_px, "radius by which masks grow, mode paper [px]",
+          Range{0, 100});
     visit("exclusion_radius_px", self.exclusion_radius_px,
-          "radius masked around a point found moving by flow [px]", Range{0, 100});
+          "radius masked around a point found moving, mode paper [px]", Range{0, 100});
+    visit("crowded_share", self.crowded_share,
+          "masked share of the image from which more features are taken", Range{0, 1});
+    visit("crowded_features", self.crowded_features, "times as many features there", Range{1, 5});
     visit("epipolar", self.epipolar, "motion by epipolar geometry, mode paper");
     visit("motion", self.motion, "motion by flow and depth, mode full");
   }

@@ -28,14 +28,19 @@ FullDynamics::FullDynamics(const DynamicsOptions& options, const PinholeCamera& 
 
 DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation) {
   const LatticeFrame lattice_frame = judge_.lattice().MakeFrame(frame);
+  const std::int64_t last_stamp_ns = state_.last ? state_.last->stamp_ns : 0;
   const MotionVerdict verdict =
       judge_.Process({lattice_frame, InstancePrior(segmentation), frame.id.value}, state_);
   DynamicMask result;
   result.mask = cv::Mat::zeros(frame.gray.size(), CV_8UC1);
   AddDilated(UpsampleMask(judge_.lattice().cells(), verdict.belief > 0, lattice_frame.depth_m,
                           frame.depth_m),
-             options_.dilation_px, result.mask);
+             options_.motion.dilation_px, result.mask);
   result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
+  if (verdict.camera_motion.is_measured) {
+    result.camera_motion =
+        FrameMotion{last_stamp_ns, verdict.camera_motion.last_from_current.Inverse()};
+  }
   result.masked_share =
       static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
   return result;

@@ -75,11 +75,11 @@ struct FreeSpaceOptions {
 
 /// How cells agree with their neighbours and with their past.
 struct BeliefOptions {
-  double prior_log_odds = -0.15;  ///< added in each frame: most things stand still
-  double decay = 0.7;             ///< of the belief from one frame to the next
-  double limit = 4;               ///< belief stays within plus and minus this
-  double coupling = 0.25;         ///< to each neighbour of equal depth
-  int iterations = 5;             ///< of relaxation
+  double prior_log_odds = -0.3;  ///< added in each frame: most things stand still
+  double decay = 0.6;            ///< of the belief from one frame to the next
+  double limit = 4;              ///< belief stays within plus and minus this
+  double coupling = 0.25;        ///< to each neighbour of equal depth
+  int iterations = 5;            ///< of relaxation
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -95,6 +95,7 @@ struct MotionOptions {
   int cell_px = 4;           ///< side of a cell [px]; even
   double min_depth_m = 0.3;  ///< nearer and farther depth is not used
   double max_depth_m = 5;
+  int dilation_px = 2;  ///< radius by which the mask grows
   CameraMotionOptions camera_motion = {};
   FlowEvidenceOptions flow = {};
   FreeSpaceOptions free_space = {};
@@ -105,6 +106,7 @@ struct MotionOptions {
     visit("cell_px", self.cell_px, "side of a cell of the lattice [px]; even", Range{2, 64});
     visit("min_depth_m", self.min_depth_m, "nearer depth is not used [m]", Range{0, 10});
     visit("max_depth_m", self.max_depth_m, "farther depth is not used [m]", Range{0.1, 100});
+    visit("dilation_px", self.dilation_px, "radius by which the mask grows [px]", Range{0, 100});
     visit("camera_motion", self.camera_motion, "the camera's own motion between frames");
     visit("flow", self.flow, "evidence from optical flow");
     visit("free_space", self.free_space, "evidence from space that was seen to be empty");

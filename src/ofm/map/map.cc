@@ -172,7 +172,7 @@ void Map::CountSightings(LandmarkId id, int visible, int found) {
 }
 
 void Map::UpdateStaticProbability(LandmarkId id, float seen) {
-  constexpr float kGain = 0.3F;  // four frames that see it move bring a sure one under 0.3
+  constexpr float kGain = 0.1F;  // a dozen frames that see it move bring a sure one under 0.3
   const Landmark* landmark = FindLandmark(id);
   if (landmark == nullptr || landmark->static_probability == seen) return;
   Landmark& edited = landmarks_.Edit(landmark->id);

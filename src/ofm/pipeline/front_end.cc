@@ -1,6 +1,19 @@
 #include "ofm/pipeline/front_end.h"
 
+#include <cmath>
+
 namespace ofm {
+namespace {
+
+/// What is seen of the static scene between people must be used better.
+OrbOptions CrowdedOptions(const SlamOptions& options) {
+  OrbOptions features = options.features;
+  features.count =
+      static_cast<int>(std::lround(features.count * options.dynamics.crowded_features));
+  return features;
+}
+
+}  // namespace
 
 FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
                    std::unique_ptr<Segmenter> segmenter)
@@ -9,7 +22,9 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
       flow_(options.perception.flow),
       mode_(options.dynamics.mode),
       dynamics_(options.dynamics, camera, segmenter_->class_names()),
-      extractor_(options.features) {}
+      extractor_(options.features),
+      crowded_extractor_(CrowdedOptions(options)),
+      crowded_share_(options.dynamics.crowded_share) {}
 
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   PreparedFrame prepared;
@@ -28,7 +43,9 @@ PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
     prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow});
   }
   ScopedStageTimer timer(times, "features");
-  Features features = extractor_.Extract(prepared.frame.gray, prepared.dynamic.mask);
+  OrbExtractor& extractor =
+      prepared.dynamic.masked_share > crowded_share_ ? crowded_extractor_ : extractor_;
+  Features features = extractor.Extract(prepared.frame.gray, prepared.dynamic.mask);
   last_points_.clear();
   for (const Keypoint& keypoint : features.keypoints) last_points_.push_back(keypoint.pixel);
   prepared.features = MakeFrameFeatures(std::move(features), prepared.frame.depth_m, camera_,

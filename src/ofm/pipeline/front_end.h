@@ -36,7 +36,8 @@ class FrontEnd {
   OpticalFlow flow_;
   DynamicsMode mode_;
   DynamicsStage dynamics_;
-  OrbExtractor extractor_;
+  OrbExtractor extractor_, crowded_extractor_;
+  double crowded_share_;
   std::vector<Eigen::Vector2f> last_points_;  // key points of the last frame [px]
 };
 

@@ -12,6 +12,9 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   input.depth_m = prepared.frame.depth_m;
   input.depth_stamp_ns = prepared.frame.depth_stamp_ns;
   input.map = std::move(map);
+  if (const auto& motion = prepared.dynamic.camera_motion) {
+    input.motion_hint = {motion->last_stamp_ns, motion->current_from_last};
+  }
   if (!prepared.dynamic.static_probability.empty()) input.moving_mask = prepared.dynamic.mask;
   input.keyframes_waiting = keyframes_waiting;
   TrackingResult result;

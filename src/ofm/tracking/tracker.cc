@@ -144,15 +144,18 @@ std::optional<Tracker::Estimate> Tracker::OptimizeMatches(
   return estimate;
 }
 
-/// Constant velocity since the last frame, whatever the time between frames.
-RigidTransform Tracker::PredictPose(std::int64_t stamp_ns) const {
+/// By the hint, or constant velocity since the last frame, whatever the time between frames.
+RigidTransform Tracker::PredictPose(const TrackingInput& input) const {
+  if (input.motion_hint && input.motion_hint->last_stamp_ns == last_->stamp_ns) {
+    return input.motion_hint->current_from_last * last_->camera_from_world;
+  }
   if (!velocity_) return last_->camera_from_world;
-  const double elapsed_s = NanosecondsToSeconds(stamp_ns - last_->stamp_ns);
+  const double elapsed_s = NanosecondsToSeconds(input.stamp_ns - last_->stamp_ns);
   return ExpSe3(elapsed_s * *velocity_) * last_->camera_from_world;
 }
 
 std::optional<Tracker::Estimate> Tracker::TrackFromLastFrame(const TrackingInput& input) const {
-  const RigidTransform predicted = PredictPose(input.stamp_ns);
+  const RigidTransform predicted = PredictPose(input);
   const FrameView view{*input.features, predicted};
   double radius = options_.search_radius_px;
   auto matches = MatchLastFrame(model_, options_, *input.map, *last_, view, radius);

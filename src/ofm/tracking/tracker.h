@@ -29,7 +29,7 @@ class Tracker {
                            const std::optional<Vector6d>& velocity) const;
   std::optional<Vector6d> VelocityTo(const TrackingInput& input,
                                      const TrackingResult& result) const;
-  RigidTransform PredictPose(std::int64_t stamp_ns) const;
+  RigidTransform PredictPose(const TrackingInput& input) const;
   void SyncWithMap(const MapSnapshot& map);
   std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
   std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,

@@ -33,6 +33,13 @@ struct TrackingInput {
   std::int64_t depth_stamp_ns = 0;  ///< of depth_m
   std::shared_ptr<const MapSnapshot> map;
   int keyframes_waiting = 0;  ///< for mapping; 0 where it is idle
+  /// How the camera moved since `last_stamp_ns`, where something else has told it; better than
+  /// constant velocity.
+  struct MotionHint {
+    std::int64_t last_stamp_ns = 0;
+    RigidTransform current_from_last;
+  };
+  std::optional<MotionHint> motion_hint;
   /// CV_8UC1, 255 where something moves: landmarks found there move. Empty = nothing is told.
   cv::Mat moving_mask;
 };
