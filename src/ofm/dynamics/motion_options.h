@@ -75,7 +75,7 @@ struct FreeSpaceOptions {
 
 /// How cells agree with their neighbours and with their past.
 struct BeliefOptions {
-  double prior_log_odds = -0.3;  ///< added in each frame: most things stand still
+  double prior_log_odds = -0.5;  ///< added in each frame: most things stand still
   double decay = 0.6;            ///< of the belief from one frame to the next
   double limit = 4;              ///< belief stays within plus and minus this
   double coupling = 0.25;        ///< to each neighbour of equal depth

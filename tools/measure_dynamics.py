@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Runs every scenario with every mode of culling and every segmenter and prints docs/results.md's table.
+
+Usage: tools/measure_dynamics.py --shared ../shared --sequences sequences [--seeds 5] [--only WORD ...]
+Each finished run is kept in --record (JSON lines): a run that is there already is not made again, so that an
+interrupted measurement goes on where it ended. Delete the file after a change of the program.
+The composed sequences are made by ../shared/tools/compose_dynamic.py (see ../shared/README.md).
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import statistics
+import tempfile
+
+import measure_results
+
+SCENARIOS = ('desk_walking', 'desk_standing', 'desk_box', 'desk_crowded')
+MODES = ('off', 'paper', 'full')
+STATIC = 'tum_fr1_desk'
+
+
+def segmenters(shared):
+    """Arguments by name; networks take longest and come last."""
+    def network(file):
+        return ['--segmenter', 'yolo-seg', '--model', str(shared / 'models' / file)]
+    return {
+        'none': ['--segmenter', 'none'],
+        'true masks': ['--segmenter', 'masks'],
+        'yolov8n 256x320': network('yolov8n-seg_256x320.onnx'),
+        'yolo11n 384x512': network('yolo11n-seg_384x512.onnx'),
+        'yolov8n 480x640': network('yolov8n-seg_480x640.onnx'),
+    }
+
+
+def configurations(shared):
+    """(scenario, mode, segmenter, arguments); nothing is segmented for mode off, which ignores it."""
+    kinds = segmenters(shared)
+    yield STATIC, 'full', 'none', kinds['none']
+    for segmenter, arguments in kinds.items():
+        for scenario in SCENARIOS:
+            for mode in MODES:
+                if mode != 'off' or segmenter == 'none':
+                    yield scenario, mode, segmenter, ['--dynamics', mode, *arguments]
+
+
+def figures(summary):
+    """What the table needs of a run's summary."""
+    stages = summary['stages']
+    front = sum(stages[s]['cpu']['median_ms'] for s in ('optical_flow', 'dynamics', 'features', 'tracking')
+                if s in stages)
+    culling = summary.get('culling', {})
+    return {'ate_cm': 100 * summary['trajectory']['ate']['translation_m']['rmse'],
+            'coverage': summary['counts']['tracked_share'],
+            'front_ms': front,
+            'segmentation_ms': stages.get('segmentation', {}).get('cpu', {}).get('median_ms', 0),
+            'process_ms': 1e3 * summary['process_cpu_s'] / summary['counts']['frames'],
+            'actor_in_pose': culling.get('actor_share_in_pose'),
+            'static_kept': culling.get('static_share_kept')}
+
+
+def measure(program, shared, sequences, configuration, seed):
+    scenario, mode, segmenter, more = configuration
+    sequence = shared / 'data' / STATIC if scenario == STATIC else sequences / scenario
+    arguments = [*more, '--set', 'build_semantic_map=false']
+    if scenario != STATIC:
+        arguments += ['--true-masks', str(sequence / 'mask')]
+    with tempfile.TemporaryDirectory() as folder:
+        summary = measure_results.run(program, sequence, arguments, seed, pathlib.Path(folder) / 'out')
+    return {'scenario': scenario, 'mode': mode, 'segmenter': segmenter, 'seed': seed, **figures(summary)}
+
+
+def row(key, runs, static_cm):
+    """One line: median [min-max] of the ATE, its ratio to the static sequence's, the worst coverage."""
+    ate = [r['ate_cm'] for r in runs]
+    ratio = f'{statistics.median(ate) / static_cm:.2f}' if static_cm else ''
+    def share(name):
+        values = [r[name] for r in runs if r[name] is not None]
+        return f'{100 * statistics.median(values):.1f} %' if values else ''
+    def milliseconds(name):
+        return f'{statistics.median(r[name] for r in runs):.0f}'
+    return (f'| {" | ".join(key)} | {len(runs)} | {statistics.median(ate):.2f} [{min(ate):.2f}–{max(ate):.2f}] '
+            f'| {ratio} | {100 * min(r["coverage"] for r in runs):.1f} % | {share("actor_in_pose")} '
+            f'| {share("static_kept")} | {milliseconds("front_ms")} | {milliseconds("segmentation_ms")} '
+            f'| {milliseconds("process_ms")} |')
+
+
+def print_table(runs):
+    groups = {}
+    for run in runs:
+        groups.setdefault((run['scenario'], run['mode'], run['segmenter']), []).append(run)
+    base = [r['ate_cm'] for r in groups.get((STATIC, 'full', 'none'), [])]
+    static_cm = statistics.median(base) if base else None
+    print('| scenario | mode | segmenter | seeds | ATE rmse [cm], median [min–max] | / static | coverage, worst '
+          '| actor features in the pose | static features kept | culling + features + tracking [ms CPU] '
+          '| segmentation [ms CPU] | process [ms CPU per frame] |')
+    print('|' + '---|' * 12)
+    for key in sorted(groups):
+        print(row(key, groups[key], static_cm))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--program', default=str(measure_results.ROOT / 'build/release/bin/ofm-slam'))
+    parser.add_argument('--shared', type=pathlib.Path, default=measure_results.ROOT / '../shared')
+    parser.add_argument('--sequences', type=pathlib.Path, default=measure_results.ROOT / 'sequences')
+    parser.add_argument('--seeds', type=int, default=5)
+    parser.add_argument('--jobs', type=int, default=2, help='runs at a time')
+    parser.add_argument('--record', type=pathlib.Path, default=pathlib.Path('dynamics_runs.jsonl'))
+    parser.add_argument('--only', nargs='*', help='configurations with all of these words (scenario, mode, segmenter)')
+    arguments = parser.parse_args()
+    runs = []
+    if arguments.record.exists():
+        runs = [json.loads(line) for line in arguments.record.read_text().splitlines()]
+    done = {(r['scenario'], r['mode'], r['segmenter'], r['seed']) for r in runs}
+    wanted = [(c, seed) for seed in range(1, arguments.seeds + 1) for c in configurations(arguments.shared)
+              if (*c[:3], seed) not in done
+              and all(any(word in part for part in c[:3]) for word in arguments.only or [])]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool, arguments.record.open('a') as record:
+        futures = [pool.submit(measure, arguments.program, arguments.shared, arguments.sequences, c, seed)
+                   for c, seed in wanted]
+        for future in concurrent.futures.as_completed(futures):
+            runs.append(future.result())
+            record.write(json.dumps(runs[-1]) + '\n')
+            record.flush()
+    print_table(runs)
+
+
+if __name__ == '__main__':
+    main()
