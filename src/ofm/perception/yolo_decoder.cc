@@ -84,18 +84,6 @@ std::vector<int> Suppress(const Candidates& candidates, cv::Size input,
   return kept;
 }
 
-/// The image's pixels whose centres lie in the box.
-cv::Rect PixelsIn(const cv::Rect2d& box, const Letterbox& letterbox) {
-  const auto first = [](double edge, int size) {
-    return static_cast<int>(std::ceil(std::clamp(edge, 0.0, static_cast<double>(size)) - 0.5));
-  };
-  const cv::Point upper_left(first(letterbox.ImageX(box.x), letterbox.image.width),
-                             first(letterbox.ImageY(box.y), letterbox.image.height));
-  const cv::Point lower_right(first(letterbox.ImageX(box.x + box.width), letterbox.image.width),
-                              first(letterbox.ImageY(box.y + box.height), letterbox.image.height));
-  return {upper_left, lower_right};
-}
-
 }  // namespace
 
 YoloOutputs SelectYoloOutputs(const std::vector<cv::Mat>& outputs, int class_count) {
@@ -138,7 +126,7 @@ std::vector<Instance> DecodeYolo(const YoloOutputs& outputs, const Letterbox& le
     instance.id = InstanceId(static_cast<std::uint32_t>(instances.size()));
     instance.class_id = ClassId(candidates.classes[i]);
     instance.score = candidates.scores[i];
-    instance.box = PixelsIn(candidates.boxes[i], letterbox);
+    instance.box = ImagePixelsIn(candidates.boxes[i], letterbox);
     if (instance.box.empty()) continue;
     const cv::Mat coefficients =
         outputs.cells.col(candidates.cells[i]).rowRange(kBoxRows + class_count, outputs.cells.rows);
