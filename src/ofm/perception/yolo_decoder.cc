@@ -25,6 +25,21 @@ std::string ShapesOf(const std::vector<cv::Mat>& outputs) {
   return fmt::format("{}", fmt::join(shapes, ", "));
 }
 
+/// YOLOv5's cells, one a row with an objectness before the class probabilities, in the order of the
+/// later versions: a class's probability is the product of both.
+cv::Mat CellsFromVersion5(const cv::Mat& rows, int class_count) {
+  const cv::Mat columns = rows.t();
+  const cv::Mat objectness = columns.row(kBoxRows);
+  cv::Mat cells(columns.rows - 1, columns.cols, CV_32FC1);
+  columns.rowRange(0, kBoxRows).copyTo(cells.rowRange(0, kBoxRows));
+  columns.rowRange(kBoxRows + 1, columns.rows).copyTo(cells.rowRange(kBoxRows, cells.rows));
+  for (int c = 0; c < class_count; ++c) {
+    cv::Mat probability = cells.row(kBoxRows + c);
+    cv::multiply(probability, objectness, probability);
+  }
+  return cells;
+}
+
 /// Cells over the threshold, as lists of the same length.
 struct Candidates {
   std::vector<int> cells;
@@ -95,6 +110,10 @@ YoloOutputs SelectYoloOutputs(const std::vector<cv::Mat>& outputs, int class_cou
                       cells.type() == CV_32F && prototypes.type() == CV_32F;
     if (fits) {
       selected.cells = cells.reshape(1, cells.size[1]);
+      if (cells.size[2] == kBoxRows + 1 + class_count + prototypes.size[1] &&
+          cells.size[1] != kBoxRows + class_count + prototypes.size[1]) {
+        selected.cells = CellsFromVersion5(selected.cells, class_count);
+      }
       selected.prototypes = prototypes.reshape(1, prototypes.size[1]);
       selected.prototype_size = cv::Size(prototypes.size[3], prototypes.size[2]);
     }
