@@ -54,8 +54,8 @@ find "$root/src/ofm-slam" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} 
 cp -a "$tree/." "$root/src/ofm-slam/"
 
 step "Packages"
-in_root bash -c 'cd /src/ofm-slam && tools/install-dependencies.sh && command -v curl >/dev/null || true'
-in_root apt-get install --quiet --yes --no-install-recommends libonnxruntime-dev
+in_root bash -c 'cd /src/ofm-slam && tools/install-dependencies.sh'
+in_root env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends libonnxruntime-dev
 
 step "Build of ${targets[*]}, ONNX Runtime required"
 in_root bash -c '
