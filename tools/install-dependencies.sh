@@ -8,8 +8,8 @@ packages=(
   # tools
   build-essential ccache cmake git ninja-build python3
   # libraries
-  libceres-dev libcli11-dev libeigen3-dev libfmt-dev liboctomap-dev libopencv-dev libspdlog-dev
-  libyaml-cpp-dev nlohmann-json3-dev
+  libceres-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libfmt-dev liboctomap-dev
+  libopencv-dev libspdlog-dev libssl-dev libyaml-cpp-dev nlohmann-json3-dev
   # tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev
 )

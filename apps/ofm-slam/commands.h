@@ -9,5 +9,6 @@ void AddRunCommand(CLI::App& app);
 void AddEvaluateCommand(CLI::App& app);
 void AddEvaluateMapCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
+void AddModelsCommand(CLI::App& app);
 
 }  // namespace ofm

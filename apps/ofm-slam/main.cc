@@ -36,6 +36,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddEvaluateCommand(app);
   ofm::AddEvaluateMapCommand(app);
   ofm::AddDemoCommand(app);
+  ofm::AddModelsCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -10,8 +10,11 @@ void OptionArguments::AddTo(CLI::App& command) {
                      "Seed of all random draws: the same seed gives the same files");
   command.add_option("--segmenter", segmenter,
                      "What finds people: none, masks (instance PNGs in the sequence's mask/), "
-                     "yolo-seg (ONNX, needs --model)");
-  command.add_option("--model", model, "Network for --segmenter yolo-seg");
+                     "yolo-seg or mask-rcnn (need --model)");
+  command.add_option("--model", model,
+                     "Network: ONNX, for mask-rcnn also TensorFlow's .pb; see ofm-slam models");
+  command.add_option("--model-graph", model_graph,
+                     "OpenCV's text graph (.pbtxt) for a .pb; default: the one beside it");
   command.add_option("--dynamics", dynamics, "What is culled: off, paper");
 }
 
@@ -24,6 +27,7 @@ SlamOptions OptionArguments::Resolve() const {
   };
   apply("perception.segmenter", segmenter);
   apply("perception.model", model);
+  apply("perception.model_graph", model_graph);
   apply("dynamics.mode", dynamics);
   if (seed) options.seed = *seed;
   for (const std::string& assignment : assignments) ApplyOptionAssignment(assignment, fields);

@@ -40,15 +40,17 @@ TEST(PrintConfig, PrintsTheDefaultsWithTheirDocumentation) {
 TEST(PrintConfig, WhatItPrintsLoadsBackToTheSame) {
   const TestFolder folder;
   const ProgramResult first = RunProgram(
-      "run --print-config --seed 7 --segmenter yolo-seg --model 'a b.onnx' --dynamics off "
+      "run --print-config --seed 7 --segmenter mask-rcnn --model 'a b.pb' --model-graph c.pbtxt "
+      "--dynamics off "
       "--set features.count=700 --set 'dynamics.dynamic_classes=person, dog'");
   const std::string file = folder.Write("my.yaml", first.out).string();
   const ProgramResult second = RunProgram("run --print-config --config " + file);
   EXPECT_EQ(second.out, first.out);
   const SlamOptions options = PrintedOptions("--config " + file);
   EXPECT_EQ(options.seed, 7U);
-  EXPECT_EQ(options.perception.segmenter, SegmenterKind::kYoloSeg);
-  EXPECT_EQ(options.perception.model, "a b.onnx");
+  EXPECT_EQ(options.perception.segmenter, SegmenterKind::kMaskRcnn);
+  EXPECT_EQ(options.perception.model, "a b.pb");
+  EXPECT_EQ(options.perception.model_graph, "c.pbtxt");
   EXPECT_EQ(options.dynamics.mode, DynamicsMode::kOff);
   EXPECT_EQ(options.features.count, 700);
   EXPECT_THAT(options.dynamics.dynamic_classes, testing::ElementsAre("person", "dog"));

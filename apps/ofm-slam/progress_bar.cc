@@ -29,13 +29,13 @@ const char* StatusName(TrackingStatus status) {
   return "?";
 }
 
-std::string Bar(double share) {
+}  // namespace
+
+std::string DrawShare(double share) {
   constexpr int kWidth = 20;
   const int filled = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
   return fmt::format("[{:#<{}}{:.<{}}] ", "", filled, "", kWidth - filled);
 }
-
-}  // namespace
 
 ProgressBar::ProgressBar(std::optional<std::size_t> total)
     : total_(total), terminal_(isatty(STDERR_FILENO) == 1), start_ns_(SteadyTimeNs()) {}
@@ -59,7 +59,7 @@ void ProgressBar::OnFrame(const FrameReport& report) {
 std::string ProgressBar::Line(const FrameReport& report, double elapsed_s) const {
   std::string line;
   if (total_ && *total_ > 0) {
-    line = Bar(static_cast<double>(report.frames_done) / static_cast<double>(*total_));
+    line = DrawShare(static_cast<double>(report.frames_done) / static_cast<double>(*total_));
   }
   line += fmt::format("{}{} frames", report.frames_done, total_ ? fmt::format("/{}", *total_) : "");
   const double rate = elapsed_s > 0 ? static_cast<double>(report.frames_done) / elapsed_s : 0;

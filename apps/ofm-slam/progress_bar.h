@@ -9,6 +9,9 @@
 
 namespace ofm {
 
+/// "[####......] ", `share` of it filled.
+std::string DrawShare(double share);
+
 /// One line on stderr: frames, rate, tracking state, keyframes, landmarks, masked share. On a
 /// terminal it is drawn anew a few times a second; elsewhere a line is printed now and then.
 class ProgressBar : public RunObserver {

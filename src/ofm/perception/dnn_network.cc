@@ -2,33 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core/utils/logger.hpp>
-
 #include "ofm/base/check.h"
 #include "ofm/base/error.h"
 #include "ofm/io/read_file.h"
 #include "ofm/perception/onnx_header.h"
+#include "ofm/perception/opencv_failure.h"
 
 namespace ofm {
 namespace {
-
-/// OpenCV logs what it also throws; silent while this lives.
-class ScopedOpenCvSilence {
- public:
-  ScopedOpenCvSilence()
-      : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~ScopedOpenCvSilence() { cv::utils::logging::setLogLevel(level_); }
-  ScopedOpenCvSilence(const ScopedOpenCvSilence&) = delete;
-  ScopedOpenCvSilence& operator=(const ScopedOpenCvSilence&) = delete;
-
- private:
-  cv::utils::logging::LogLevel level_;
-};
-
-/// The first line of OpenCV's reason, without its source file.
-std::string Reason(const cv::Exception& exception) {
-  return exception.err.substr(0, exception.err.find('\n'));
-}
 
 /// Width and height of the image input of `bytes`; `wanted` goes first where it is not empty.
 cv::Size FindInputSize(const std::string& bytes, const std::filesystem::path& path,
@@ -60,7 +41,7 @@ DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path
     net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     output_names_ = net_.getUnconnectedOutLayersNames();
   } catch (const cv::Exception& exception) {
-    throw Error(path, "OpenCV cannot load this network: " + Reason(exception));
+    throw Error(path, "OpenCV cannot load this network: " + ReasonOf(exception));
   }
   if (output_names_.empty()) throw Error(path, "is a network without outputs; export it again");
   Run(cv::Mat(input_, CV_8UC3, cv::Scalar::all(128)));
@@ -73,7 +54,7 @@ void DnnNetwork::Run(const cv::Mat& image) {
     net_.forward(outputs_, output_names_);
   } catch (const cv::Exception& exception) {
     throw Error(path_, fmt::format("OpenCV cannot run this network at {} x {} px: {}", input_.width,
-                                   input_.height, Reason(exception)));
+                                   input_.height, ReasonOf(exception)));
   }
 }
 

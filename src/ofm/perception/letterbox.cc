@@ -23,6 +23,17 @@ Letterbox MakeLetterbox(cv::Size image, cv::Size input) {
   return letterbox;
 }
 
+cv::Rect ImagePixelsIn(const cv::Rect2d& box, const Letterbox& letterbox) {
+  const auto first = [](double edge, int size) {
+    return static_cast<int>(std::ceil(std::clamp(edge, 0.0, static_cast<double>(size)) - 0.5));
+  };
+  const cv::Point upper_left(first(letterbox.ImageX(box.x), letterbox.image.width),
+                             first(letterbox.ImageY(box.y), letterbox.image.height));
+  const cv::Point lower_right(first(letterbox.ImageX(box.x + box.width), letterbox.image.width),
+                              first(letterbox.ImageY(box.y + box.height), letterbox.image.height));
+  return {upper_left, lower_right};
+}
+
 cv::Mat ApplyLetterbox(const Letterbox& letterbox, const cv::Mat& image) {
   OFM_CHECK(image.type() == CV_8UC3 && image.size() == letterbox.image);
   if (letterbox.image == letterbox.input) return image;

@@ -27,6 +27,10 @@ struct Letterbox {
 /// Neither size may be empty.
 Letterbox MakeLetterbox(cv::Size image, cv::Size input);
 
+/// The image's pixels whose centres lie in `box` [input px, continuous], cut at the image's border;
+/// empty where there are none.
+cv::Rect ImagePixelsIn(const cv::Rect2d& box, const Letterbox& letterbox);
+
 /// The network's input image, of the type of `image` (CV_8UC3).
 cv::Mat ApplyLetterbox(const Letterbox& letterbox, const cv::Mat& image);
 

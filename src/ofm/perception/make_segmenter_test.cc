@@ -6,11 +6,13 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "ofm/io/test_folder.h"
-#include "ofm/perception/test_support.h"
+#include "ofm/perception/mask_rcnn_test_support.h"
+#include "ofm/perception/onnx_runtime_network.h"
 
 namespace ofm {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -70,10 +72,71 @@ TEST(MakeSegmenter, YoloNeedsAModelAndBothSidesOfTheInput) {
   EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("set together"));
 }
 
+TEST(MakeSegmenter, MaskRcnnTakesTheTextGraphBesideTheGraphOrTheOneNamed) {
+  const TestFolder folder;
+  const test::TensorflowNetwork network = test::MakeTensorflowMaskRcnn();
+  PerceptionOptions options{.segmenter = SegmenterKind::kMaskRcnn,
+                            .model = folder.Write("net.pb", network.graph),
+                            .input_width = 64,
+                            .input_height = 32};
+  EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }),
+              AllOf(HasSubstr("net.pbtxt: does not exist"), HasSubstr("perception.model_graph")));
+  const auto frame = test::MakeFrame(cv::Mat(32, 64, CV_8UC3, cv::Scalar(255, 0, 128)));
+  Set(options, "model_graph=" + folder.Write("other.pbtxt", network.text_graph).string());
+  const auto named = MakeSegmenter(options, "")->Segment(frame).instances;
+  ASSERT_FALSE(named.empty());
+  EXPECT_EQ(named[0].class_id, ClassId(0));
+  Set(options, "model_graph=");
+  folder.Write("net.pbtxt", network.text_graph);
+  EXPECT_EQ(MakeSegmenter(options, "")->Segment(frame).instances.size(), named.size());
+}
+
+TEST(MakeSegmenter, MaskRcnnTakesThresholdsAndNamesFromTheOptions) {
+  const TestFolder folder;
+  const test::TensorflowNetwork network = test::MakeTensorflowMaskRcnn(2);
+  PerceptionOptions options{.segmenter = SegmenterKind::kMaskRcnn,
+                            .model = folder.Write("net.pb", network.graph),
+                            .model_graph = folder.Write("net.pbtxt", network.text_graph),
+                            .class_names_file = folder.Write("names.txt", "red\ngreen\n"),
+                            .input_width = 64,
+                            .input_height = 32};
+  const auto frame = test::MakeFrame(cv::Mat(32, 64, CV_8UC3, cv::Scalar(255, 0, 128)));
+  const auto count = [&] { return MakeSegmenter(options, "")->Segment(frame).instances.size(); };
+  EXPECT_THAT(MakeSegmenter(options, "")->class_names(), SizeIs(2));
+  EXPECT_GT(count(), 0U);
+  for (const char* assignment : {"score_threshold=0.6", "mask_threshold=1", "min_area_px=2000"}) {
+    PerceptionOptions changed = options;
+    std::swap(changed, options);
+    Set(options, assignment);
+    EXPECT_EQ(count(), 0U) << assignment;
+    std::swap(changed, options);
+  }
+}
+
+TEST(MakeSegmenter, MaskRcnnInOnnxGoesThroughOnnxRuntime) {
+  const TestFolder folder;
+  const PerceptionOptions options{.segmenter = SegmenterKind::kMaskRcnn,
+                                  .model = folder.Write("net.onnx", test::MakeOnnxMaskRcnn())};
+  const auto frame = test::MakeFrame(cv::Mat(32, 64, CV_8UC3, cv::Scalar(255, 0, 128)));
+  if (OnnxRuntimeNetwork::IsAvailable()) {
+    EXPECT_THAT(MakeSegmenter(options, "")->Segment(frame).instances, SizeIs(1));
+  } else {
+    EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("libonnxruntime-dev"));
+  }
+}
+
+TEST(MakeSegmenter, MaskRcnnNeedsAModelOfAKnownKind) {
+  PerceptionOptions options{.segmenter = SegmenterKind::kMaskRcnn};
+  EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }), HasSubstr("perception.model"));
+  options.model = "weights.h5";
+  EXPECT_THAT(ErrorOf([&] { MakeSegmenter(options, ""); }),
+              HasSubstr("weights.h5: is neither a TensorFlow graph (.pb) nor an ONNX file"));
+}
+
 TEST(MakeSegmenter, UnknownSegmenterIsToldWithTheKnownOnes) {
   PerceptionOptions options;
   EXPECT_THAT(ErrorOf([&] { Set(options, "segmenter=yolo"); }),
-              HasSubstr("none | masks | yolo-seg"));
+              HasSubstr("none | masks | yolo-seg | mask-rcnn"));
 }
 
 }  // namespace

@@ -25,6 +25,21 @@ std::string ShapesOf(const std::vector<cv::Mat>& outputs) {
   return fmt::format("{}", fmt::join(shapes, ", "));
 }
 
+/// YOLOv5's cells, one a row with an objectness before the class probabilities, in the order of the
+/// later versions: a class's probability is the product of both.
+cv::Mat CellsFromVersion5(const cv::Mat& rows, int class_count) {
+  const cv::Mat columns = rows.t();
+  const cv::Mat objectness = columns.row(kBoxRows);
+  cv::Mat cells(columns.rows - 1, columns.cols, CV_32FC1);
+  columns.rowRange(0, kBoxRows).copyTo(cells.rowRange(0, kBoxRows));
+  columns.rowRange(kBoxRows + 1, columns.rows).copyTo(cells.rowRange(kBoxRows, cells.rows));
+  for (int c = 0; c < class_count; ++c) {
+    cv::Mat probability = cells.row(kBoxRows + c);
+    cv::multiply(probability, objectness, probability);
+  }
+  return cells;
+}
+
 /// Cells over the threshold, as lists of the same length.
 struct Candidates {
   std::vector<int> cells;
@@ -84,18 +99,6 @@ std::vector<int> Suppress(const Candidates& candidates, cv::Size input,
   return kept;
 }
 
-/// The image's pixels whose centres lie in the box.
-cv::Rect PixelsIn(const cv::Rect2d& box, const Letterbox& letterbox) {
-  const auto first = [](double edge, int size) {
-    return static_cast<int>(std::ceil(std::clamp(edge, 0.0, static_cast<double>(size)) - 0.5));
-  };
-  const cv::Point upper_left(first(letterbox.ImageX(box.x), letterbox.image.width),
-                             first(letterbox.ImageY(box.y), letterbox.image.height));
-  const cv::Point lower_right(first(letterbox.ImageX(box.x + box.width), letterbox.image.width),
-                              first(letterbox.ImageY(box.y + box.height), letterbox.image.height));
-  return {upper_left, lower_right};
-}
-
 }  // namespace
 
 YoloOutputs SelectYoloOutputs(const std::vector<cv::Mat>& outputs, int class_count) {
@@ -107,6 +110,10 @@ YoloOutputs SelectYoloOutputs(const std::vector<cv::Mat>& outputs, int class_cou
                       cells.type() == CV_32F && prototypes.type() == CV_32F;
     if (fits) {
       selected.cells = cells.reshape(1, cells.size[1]);
+      if (cells.size[2] == kBoxRows + 1 + class_count + prototypes.size[1] &&
+          cells.size[1] != kBoxRows + class_count + prototypes.size[1]) {
+        selected.cells = CellsFromVersion5(selected.cells, class_count);
+      }
       selected.prototypes = prototypes.reshape(1, prototypes.size[1]);
       selected.prototype_size = cv::Size(prototypes.size[3], prototypes.size[2]);
     }
@@ -138,7 +145,7 @@ std::vector<Instance> DecodeYolo(const YoloOutputs& outputs, const Letterbox& le
     instance.id = InstanceId(static_cast<std::uint32_t>(instances.size()));
     instance.class_id = ClassId(candidates.classes[i]);
     instance.score = candidates.scores[i];
-    instance.box = PixelsIn(candidates.boxes[i], letterbox);
+    instance.box = ImagePixelsIn(candidates.boxes[i], letterbox);
     if (instance.box.empty()) continue;
     const cv::Mat coefficients =
         outputs.cells.col(candidates.cells[i]).rowRange(kBoxRows + class_count, outputs.cells.rows);

@@ -21,8 +21,9 @@ struct YoloOutputs {
 };
 
 /// Tells the outputs apart by their rank (cells 3, prototypes 4), in whichever order they come.
-/// Returns headers onto the same data. Throws Error with the shapes found where they do not fit one
-/// another or `class_count`.
+/// Returns headers onto the same data; only YOLOv5's cells (1 × cells × 5 + C + M, one a row, with
+/// an objectness as the fifth number) are brought into this order. Throws Error with the shapes
+/// found where they do not fit one another or `class_count`.
 YoloOutputs SelectYoloOutputs(const std::vector<cv::Mat>& outputs, int class_count);
 
 struct YoloDecoderOptions {

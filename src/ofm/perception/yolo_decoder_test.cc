@@ -81,6 +81,28 @@ TEST(YoloDecoder, OutputsAreToldApartByRankInEitherOrder) {
   EXPECT_EQ(b.prototype_size, cv::Size(16, 16));
 }
 
+/// The same cells as YOLOv5 gives them: one a row, objectness 0.5 before the classes.
+TEST(YoloDecoder, Version5IsReadWithItsObjectness) {
+  Tensors tensors;
+  tensors.Put(7, {32, 32, 16, 16, 2, 0.8F}).Put(40, {10, 10, 8, 8, 0, 0.6F, {0, 1, 0}});
+  const int shape[] = {1, kCells, kRows + 1};
+  cv::Mat rows(3, shape, CV_32F, cv::Scalar(0));
+  for (int cell = 0; cell < kCells; ++cell) {
+    for (int row = 0; row < kRows; ++row) {
+      rows.at<float>(0, cell, row < 4 ? row : row + 1) = tensors.At(row, cell);
+    }
+    rows.at<float>(0, cell, 4) = 0.5F;
+  }
+  const YoloOutputs outputs = SelectYoloOutputs({tensors.prototypes_, rows}, kClasses);
+  ASSERT_EQ(outputs.cells.size(), cv::Size(kCells, kRows));
+  const YoloOutputs expected = SelectYoloOutputs({tensors.cells_, tensors.prototypes_}, kClasses);
+  for (int row = 0; row < kRows; ++row) {
+    const double factor = row >= 4 && row < 4 + kClasses ? 0.5 : 1;
+    EXPECT_LT(cv::norm(outputs.cells.row(row), expected.cells.row(row) * factor), 1e-6) << row;
+  }
+  EXPECT_THROW(SelectYoloOutputs({tensors.prototypes_, rows}, kClasses + 1), Error);
+}
+
 TEST(YoloDecoder, OtherOutputsAreRefusedWithTheirShapes) {
   const Tensors tensors;
   const auto error = [](const std::vector<cv::Mat>& outputs, int classes = kClasses) {

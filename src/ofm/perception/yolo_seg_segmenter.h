@@ -1,4 +1,4 @@
-// Instances from a YOLO segmentation network (v8, 11; the Ultralytics ONNX export).
+// Instances from a YOLO segmentation network (v5, v8, 11; the Ultralytics ONNX export).
 #pragma once
 
 #include <filesystem>
