@@ -8,6 +8,7 @@
 
 #include "ofm/base/options.h"
 #include "ofm/perception/optical_flow.h"
+#include "ofm/perception/segmentation_schedule.h"
 
 namespace ofm {
 
@@ -45,6 +46,7 @@ struct PerceptionOptions {
   int input_width = 0;          ///< of the network [px]; 0 = as the model file says or was trained
   int input_height = 0;         ///< of the network [px]; 0 = as the model file says or was trained
   OpticalFlowOptions flow = {};
+  SegmentationScheduleOptions schedule = {};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -68,6 +70,7 @@ struct PerceptionOptions {
     visit("input_height", self.input_height, "network input [px]; 0 = as the model says",
           Range{0, 4096});
     visit("flow", self.flow, "sparse optical flow");
+    visit("schedule", self.schedule, "when the network runs");
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Instance {
 struct Segmentation {
   FrameId frame_id;
   std::vector<Instance> instances;
+  /// Frames since the one that the network saw; 0 = this one, empty = there was none to go by.
+  std::optional<int> age_frames = 0;
 };
 
 }  // namespace ofm

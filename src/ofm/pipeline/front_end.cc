@@ -18,10 +18,10 @@ OrbOptions CrowdedOptions(const SlamOptions& options) {
 FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
                    std::unique_ptr<Segmenter> segmenter)
     : camera_(camera),
-      segmenter_(std::move(segmenter)),
       flow_(options.perception.flow),
       mode_(options.dynamics.mode),
-      dynamics_(options.dynamics, camera, segmenter_->class_names()),
+      segmentation_(std::move(segmenter), options.perception.schedule, flow_),
+      dynamics_(options.dynamics, camera, segmentation_.class_names()),
       extractor_(options.features),
       crowded_extractor_(CrowdedOptions(options)),
       crowded_share_(options.dynamics.crowded_share) {}
@@ -29,15 +29,23 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   PreparedFrame prepared;
   prepared.frame = std::move(frame);
+  FlowPyramid pyramid;
+  if (mode_ == DynamicsMode::kPaper || segmentation_.NeedsPyramid()) {
+    ScopedStageTimer timer(times, "image_pyramid");
+    pyramid = BuildFlowPyramid(prepared.frame.gray, flow_);
+  }
   {
     ScopedStageTimer timer(times, "segmentation");
-    prepared.segmentation = segmenter_->Segment(prepared.frame);
+    prepared.segmentation = segmentation_.Process(prepared.frame, pyramid);
   }
   if (mode_ != DynamicsMode::kOff) {
     FlowResult flow;
     if (mode_ == DynamicsMode::kPaper) {
       ScopedStageTimer timer(times, "optical_flow");
-      flow = flow_.Advance(prepared.frame.gray, last_points_);
+      if (last_pyramid_.size == pyramid.size) {
+        flow = TrackPoints(last_pyramid_, pyramid, last_points_, flow_);
+      }
+      last_pyramid_ = std::move(pyramid);
     }
     ScopedStageTimer timer(times, "dynamics");
     prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow});

@@ -6,7 +6,7 @@
 #include "ofm/base/timing.h"
 #include "ofm/dynamics/dynamics_stage.h"
 #include "ofm/perception/optical_flow.h"
-#include "ofm/perception/segmenter.h"
+#include "ofm/perception/segmentation_stage.h"
 #include "ofm/pipeline/options.h"
 
 namespace ofm {
@@ -28,17 +28,19 @@ class FrontEnd {
   /// Frames come in increasing order of time. Adds the time of each part to `times`.
   PreparedFrame Process(RgbdFrame frame, StageTimes& times);
 
-  const std::vector<std::string>& class_names() const { return segmenter_->class_names(); }
+  const std::vector<std::string>& class_names() const { return segmentation_.class_names(); }
+  SegmentationStatistics segmentation_statistics() const { return segmentation_.statistics(); }
 
  private:
   PinholeCamera camera_;
-  std::unique_ptr<Segmenter> segmenter_;
-  OpticalFlow flow_;
+  OpticalFlowOptions flow_;
   DynamicsMode mode_;
+  SegmentationStage segmentation_;
   DynamicsStage dynamics_;
   OrbExtractor extractor_, crowded_extractor_;
   double crowded_share_;
   std::vector<Eigen::Vector2f> last_points_;  // key points of the last frame [px]
+  FlowPyramid last_pyramid_;                  // of the last frame
 };
 
 }  // namespace ofm

@@ -1,0 +1,39 @@
+#include "ofm/base/thread_priority.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+namespace ofm {
+namespace {
+
+TEST(ThreadPriority, LowersTheCallingThreadAlone) {
+#ifndef __linux__
+  GTEST_SKIP() << "threads have no niceness of their own here";
+#endif
+  const int before = ThreadNiceness();
+  int inside = -100;
+  std::jthread([&] {
+    LowerThreadPriority(3);
+    inside = ThreadNiceness();
+  }).join();
+  EXPECT_EQ(inside, std::min(19, before + 3));
+  EXPECT_EQ(ThreadNiceness(), before);
+}
+
+TEST(ThreadPriority, StopsAtTheLowest) {
+  std::jthread([] {
+    LowerThreadPriority(100);
+    EXPECT_LE(ThreadNiceness(), 19);
+    LowerThreadPriority(0);
+  }).join();
+}
+
+TEST(ThreadPriority, RaisingIsAProgrammersError) {
+  EXPECT_THROW(LowerThreadPriority(-1), std::logic_error);
+}
+
+}  // namespace
+}  // namespace ofm

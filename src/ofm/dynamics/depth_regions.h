@@ -1,0 +1,19 @@
+// Surfaces in a depth image.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace ofm {
+
+/// Pixels that are joined by small depth steps.
+struct DepthRegion {
+  std::vector<cv::Point> pixels;
+};
+
+/// Parts of `mask` (CV_8UC1, not 0 = looked at) whose 4-neighbours' depths differ by at most
+/// `step_m`; pixels without depth belong to none. In the order of their first pixels.
+std::vector<DepthRegion> FindDepthRegions(const cv::Mat& mask, const cv::Mat& depth_m,
+                                          float step_m);
+
+}  // namespace ofm
