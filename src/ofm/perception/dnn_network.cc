@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core/utils/logger.hpp>
-
 #include "ofm/base/check.h"
 #include "ofm/base/error.h"
 #include "ofm/io/read_file.h"
@@ -11,19 +9,6 @@
 
 namespace ofm {
 namespace {
-
-/// OpenCV logs what it also throws; silent while this lives.
-class ScopedOpenCvSilence {
- public:
-  ScopedOpenCvSilence()
-      : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~ScopedOpenCvSilence() { cv::utils::logging::setLogLevel(level_); }
-  ScopedOpenCvSilence(const ScopedOpenCvSilence&) = delete;
-  ScopedOpenCvSilence& operator=(const ScopedOpenCvSilence&) = delete;
-
- private:
-  cv::utils::logging::LogLevel level_;
-};
 
 /// The first line of OpenCV's reason, without its source file.
 std::string Reason(const cv::Exception& exception) {
@@ -54,7 +39,6 @@ DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path
   }
   const std::string bytes = ReadFile(path);
   input_ = FindInputSize(bytes, path, input);
-  const ScopedOpenCvSilence silence;
   try {
     net_ = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
     net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
