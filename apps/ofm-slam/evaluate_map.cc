@@ -44,7 +44,7 @@ MapMetrics Measure(const MapArguments& arguments) {
   if (!sequence.groundtruth()) throw Error(arguments.sequence, "has no groundtruth.txt");
   const Trajectory truth = LoadTrajectory(*sequence.groundtruth());
   const Trajectory estimate = LoadTrajectory(arguments.results / "trajectory.txt");
-  const RigidTransform map_from_truth = ComputeAte(estimate, truth).truth_from_estimate.Inverse();
+  const RigidTransform map_from_truth = AlignPoses(estimate, truth).Inverse();
   const auto octree = LoadColorOcTree(arguments.results / "map.ot");
   MapMetricsOptions options;
   options.resolution_m = octree->getResolution();
