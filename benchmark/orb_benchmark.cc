@@ -1,26 +1,20 @@
 // Time and quality of our ORB beside cv::ORB on the same frames:
-//   build/release/bin/ofm_orb_benchmark [--benchmark_...]
+//   build/release/bin/orb_benchmark [--benchmark_...]
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
-#include <time.h>
 
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
 #include "feature_quality.h"
+#include "ofm/base/timing.h"
 #include "ofm/features/orb_extractor.h"
 #include "ofm/features/orb_kernels.h"
 #include "rgbd_samples.h"
 
 namespace ofm {
 namespace {
-
-double ThreadCpu_ms() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 const RgbdSampleSource& Source() {
   static const RgbdSampleSource source(OFM_SHARED_DIR "/data/tum_fr1_desk",
@@ -69,9 +63,9 @@ void BM_Extract(benchmark::State& state, int contestant) {
   std::size_t frame = 0;
   for (auto _ : state) {
     const cv::Mat& gray = TimingFrames()[frame++ % TimingFrames().size()];
-    const double start_ms = ThreadCpu_ms();
+    const std::int64_t start_ns = ThreadCpuTimeNs();
     benchmark::DoNotOptimize(c.extract(gray));
-    c.times_ms.push_back(ThreadCpu_ms() - start_ms);
+    c.times_ms.push_back(static_cast<double>(ThreadCpuTimeNs() - start_ns) * 1e-6);
   }
 }
 

@@ -1,42 +1,12 @@
 #include "rgbd_samples.h"
 
-#include <fstream>
-#include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
 #include "ofm/base/random.h"
+#include "ofm/io/trajectory_file.h"
 
 namespace ofm {
 namespace {
-
-using PosesByTime = std::map<double, RigidTransform>;
-
-PosesByTime ReadPoses(const std::string& path) {
-  PosesByTime poses;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    double time, x, y, z, qx, qy, qz, qw;
-    if (fields >> time >> x >> y >> z >> qx >> qy >> qz >> qw) {
-      poses.emplace(time,
-                    RigidTransform(Eigen::Quaterniond(qw, qx, qy, qz), Eigen::Vector3d(x, y, z)));
-    }
-  }
-  return poses;
-}
-
-/// Interpolated; false outside the recorded time.
-bool PoseAt(const PosesByTime& poses, double time, RigidTransform& pose) {
-  const auto after = poses.lower_bound(time);
-  if (after == poses.begin() || after == poses.end()) return false;
-  const auto before = std::prev(after);
-  if (after->first - before->first > 0.05) return false;
-  pose = Interpolate(before->second, after->second,
-                     (time - before->first) / (after->first - before->first));
-  return true;
-}
 
 constexpr double kWallDistance_m = 1.5;
 constexpr double kTexelsPerMetre = 400;
@@ -83,48 +53,40 @@ RgbdSample RenderWall(const cv::Mat& texture, const PinholeCamera& camera,
 
 }  // namespace
 
-RgbdSampleSource::RgbdSampleSource(const std::string& folder, const PinholeCamera& camera)
+RgbdSampleSource::RgbdSampleSource(const std::filesystem::path& folder, const PinholeCamera& camera)
     : camera_(camera) {
-  is_real_ = ReadFolder(folder);
-  if (is_real_) return;
-  camera_ = PinholeCamera();
-  texture_ = MakeTexture();
-  MakeSyntheticPoses();
+  if (std::filesystem::exists(folder)) {
+    ReadFolder(folder);
+  } else {
+    camera_ = PinholeCamera();
+    texture_ = MakeTexture();
+    MakeSyntheticPoses();
+  }
 }
 
-bool RgbdSampleSource::ReadFolder(const std::string& folder) {
-  const PosesByTime poses = ReadPoses(folder + "/groundtruth.txt");
-  std::ifstream file(folder + "/associations.txt");
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    double color_time, depth_time;
-    Entry entry;
-    if (!(fields >> color_time >> entry.color_path >> depth_time >> entry.depth_path)) continue;
-    if (!PoseAt(poses, color_time, entry.world_from_camera)) continue;
-    entry.color_path = folder + "/" + entry.color_path;
-    entry.depth_path = folder + "/" + entry.depth_path;
-    entries_.push_back(entry);
+void RgbdSampleSource::ReadFolder(const std::filesystem::path& folder) {
+  constexpr std::int64_t kMaxGap_ns = 50'000'000;
+  sequence_.emplace(folder, camera_);
+  const Trajectory truth = LoadTrajectory(folder / "groundtruth.txt");
+  for (std::size_t i = 0; i < sequence_->size(); ++i) {
+    const auto pose = InterpolatePose(truth, sequence_->entries()[i].color.stamp_ns, kMaxGap_ns);
+    if (pose) entries_.push_back({i, *pose});
   }
-  return !entries_.empty();
 }
 
 void RgbdSampleSource::MakeSyntheticPoses() {
-  for (int i = 0; i < 60; ++i) {
-    const double t = i / 30.0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const double t = static_cast<double>(i) / 30;
     const Eigen::Vector3d axis_angle(0.1 * std::sin(t), 0.15 * std::sin(1.3 * t), 0.4 * t);
-    entries_.push_back({"", "", {ExpSo3(axis_angle), Eigen::Vector3d(0.3 * t, 0.1 * t, 0.2 * t)}});
+    entries_.push_back({i, {ExpSo3(axis_angle), Eigen::Vector3d(0.3 * t, 0.1 * t, 0.2 * t)}});
   }
 }
 
 RgbdSample RgbdSampleSource::Read(int index) const {
   const Entry& entry = entries_.at(index);
-  if (!is_real_) return RenderWall(texture_, camera_, entry.world_from_camera);
-  RgbdSample sample;
-  sample.world_from_camera = entry.world_from_camera;
-  sample.gray = cv::imread(entry.color_path, cv::IMREAD_GRAYSCALE);
-  cv::imread(entry.depth_path, cv::IMREAD_UNCHANGED)
-      .convertTo(sample.depth_m, CV_32F, 1.0 / camera_.depth_scale);
-  return sample;
+  if (!sequence_) return RenderWall(texture_, camera_, entry.world_from_camera);
+  const RgbdFrame frame = sequence_->Load(entry.frame);
+  return {frame.gray, frame.depth_m, entry.world_from_camera};
 }
 
 }  // namespace ofm

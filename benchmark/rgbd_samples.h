@@ -1,12 +1,13 @@
 // Frames with depth and true poses for benchmarks.
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "ofm/camera/pinhole_camera.h"
 #include "ofm/geometry/rigid_transform.h"
+#include "ofm/io/tum_sequence.h"
 
 namespace ofm {
 
@@ -19,25 +20,25 @@ struct RgbdSample {
 /// What is needed to read the frames of a TUM RGB-D folder on demand.
 class RgbdSampleSource {
  public:
-  /// A folder with associations.txt and groundtruth.txt; where it is not there, a synthetic world.
-  RgbdSampleSource(const std::string& folder, const PinholeCamera& camera);
+  /// A folder with groundtruth.txt; where it is not there, a synthetic world.
+  RgbdSampleSource(const std::filesystem::path& folder, const PinholeCamera& camera);
 
-  bool is_real() const { return is_real_; }
+  bool is_real() const { return sequence_.has_value(); }
   int size() const { return static_cast<int>(entries_.size()); }
   const PinholeCamera& camera() const { return camera_; }
   RgbdSample Read(int index) const;
 
  private:
   struct Entry {
-    std::string color_path, depth_path;
+    std::size_t frame;  ///< of the sequence
     RigidTransform world_from_camera;
   };
-  bool ReadFolder(const std::string& folder);
+  void ReadFolder(const std::filesystem::path& folder);
   void MakeSyntheticPoses();
 
   PinholeCamera camera_;
+  std::optional<RgbdSequence> sequence_;
   std::vector<Entry> entries_;
-  bool is_real_ = false;
   cv::Mat texture_;  ///< of the synthetic wall
 };
 

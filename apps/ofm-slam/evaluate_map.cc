@@ -1,17 +1,16 @@
 // ofm-slam evaluate-map: what of the actors is left in an octree, and what of the room is in it.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "commands.h"
 #include "ofm/base/error.h"
 #include "ofm/dense/map_metrics.h"
+#include "ofm/dense/octree_file.h"
 #include "ofm/eval/ate.h"
 #include "ofm/io/camera_file.h"
+#include "ofm/io/image_file.h"
 #include "ofm/io/trajectory_file.h"
 #include "ofm/io/tum_sequence.h"
 
@@ -30,32 +29,10 @@ struct MapArguments {
   std::filesystem::path results, sequence;
 };
 
-std::unique_ptr<octomap::ColorOcTree> LoadOctree(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(path, "cannot be opened; make it with ofm-slam run");
-  std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(stream));
-  auto* color_tree = dynamic_cast<octomap::ColorOcTree*>(tree.get());
-  if (color_tree == nullptr) throw Error(path, "is no OctoMap file of a ColorOcTree");
-  tree.release();
-  return std::unique_ptr<octomap::ColorOcTree>(color_tree);
-}
-
-/// The true pose at a time, between the two poses next to it; empty outside of the ground truth.
-std::optional<RigidTransform> PoseAt(const Trajectory& truth, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(
-      truth.begin(), truth.end(), stamp_ns,
-      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
-  if (after == truth.begin() || after == truth.end()) return {};
-  const StampedPose& before = *(after - 1);
-  const double ratio = static_cast<double>(stamp_ns - before.stamp_ns) /
-                       static_cast<double>(after->stamp_ns - before.stamp_ns);
-  return Interpolate(before.world_from_camera, after->world_from_camera, ratio);
-}
-
 cv::Mat LoadMask(const std::filesystem::path& sequence, const RgbdFrame& frame) {
   const std::filesystem::path path = sequence / "mask" / (frame.name + ".png");
-  cv::Mat mask = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-  if (mask.empty() || mask.type() != CV_8UC1 || mask.size() != frame.depth_m.size()) {
+  cv::Mat mask = LoadImage(path);
+  if (mask.type() != CV_8UC1 || mask.size() != frame.depth_m.size()) {
     throw Error(path, "is no 8-bit instance mask of the frame's size");
   }
   return mask;
@@ -67,14 +44,14 @@ MapMetrics Measure(const MapArguments& arguments) {
   if (!sequence.groundtruth()) throw Error(arguments.sequence, "has no groundtruth.txt");
   const Trajectory truth = LoadTrajectory(*sequence.groundtruth());
   const Trajectory estimate = LoadTrajectory(arguments.results / "trajectory.txt");
-  const RigidTransform map_from_truth = ComputeAte(estimate, truth).truth_from_estimate.Inverse();
-  const auto octree = LoadOctree(arguments.results / "map.ot");
+  const RigidTransform map_from_truth = AlignPoses(estimate, truth).Inverse();
+  const auto octree = LoadColorOcTree(arguments.results / "map.ot");
   MapMetricsOptions options;
   options.resolution_m = octree->getResolution();
   MapMetricsMeter meter(camera, options);
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     const RgbdFrame frame = sequence.Load(i);
-    const auto pose = PoseAt(truth, frame.stamp_ns);
+    const auto pose = InterpolatePose(truth, frame.stamp_ns);
     if (!pose) continue;
     meter.AddFrame(map_from_truth * *pose, frame.depth_m, LoadMask(arguments.sequence, frame));
   }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 
 #include "commands.h"
@@ -24,7 +25,11 @@ constexpr const char* kExamples =
     "  ofm-slam evaluate out/trajectory.txt desk/groundtruth.txt --sequence desk\n"
     "  ofm-slam run --help";
 
-void LogToStderr() { spdlog::set_default_logger(spdlog::stderr_color_mt("ofm-slam")); }
+void LogToStderr() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("ofm-slam"));
+  // OpenCV logs what it also throws, and an error is one line here.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+}
 
 /// Parses the arguments, which also runs the subcommand that they name.
 int RunCommandLine(int argc, char** argv) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ofm/perception/test_support.h"
 #include "test_recording.h"
 
 namespace ofm {
@@ -174,6 +175,18 @@ TEST(RunOnBadInput, ModelThatIsNoNetwork) {
   recording.Write("model.onnx", "this is no network");
   const std::string model = (recording.folder() / "model.onnx").string();
   ExpectRefused(recording, "--segmenter yolo-seg --model " + model, HasSubstr(model + ": "));
+}
+
+TEST(RunOnBadInput, ModelThatOpenCvCannotLoad) {
+  const TestRecording recording(2);
+  const test::Message graph = test::Message()
+                                  .Add(1, test::OnnxNode("NoSuchOperation", {"images"}, "output"))
+                                  .Add(11, test::OnnxValue("images", {1, 3, 32, 32}))
+                                  .Add(12, test::OnnxValue("output", {1, 3, 32, 32}));
+  recording.Write("model.onnx", test::OnnxModel(graph));
+  const std::string model = (recording.folder() / "model.onnx").string();
+  ExpectRefused(recording, "--segmenter yolo-seg --model " + model,
+                HasSubstr(model + ": OpenCV cannot load this network"));
 }
 
 TEST(RunOnBadInput, ModelThatIsMissing) {

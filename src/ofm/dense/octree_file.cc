@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
 
 #include "ofm/base/error.h"
+#include "ofm/io/read_file.h"
 
 namespace ofm {
 namespace {
@@ -38,6 +42,9 @@ void SetSensorModel(octomap::AbstractOccupancyOcTree& tree, const OccupancyOptio
   tree.setClampingThresMax(options.probability_max);
 }
 
+constexpr const char* kOcTreeFile = "# Octomap OcTree file";
+constexpr const char* kBinaryOcTreeFile = "# Octomap OcTree binary file";
+
 /// The header as OctoMap's own write functions make it; these talk on the standard error stream.
 void WriteHeader(std::ostream& stream, const char* first_line,
                  const octomap::AbstractOcTree& tree) {
@@ -45,6 +52,31 @@ void WriteHeader(std::ostream& stream, const char* first_line,
          << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
          << fmt::format("id {}\nsize {}\nres {}\ndata\n", tree.getTreeType(), tree.size(),
                         tree.getResolution());
+}
+
+struct Header {
+  std::string type;
+  std::size_t nodes = 0;
+  double resolution_m = 0;
+};
+
+/// Reads up to the line "data"; empty where this is no header.
+std::optional<Header> ReadHeader(std::istream& stream) {
+  std::string line;
+  if (!std::getline(stream, line) || !line.starts_with(kOcTreeFile)) return {};
+  Header header;
+  while (std::getline(stream, line) && line != "data") {
+    std::istringstream fields(line);
+    std::string key;
+    fields >> key;
+    if (key == "id") fields >> header.type;
+    if (key == "size") fields >> header.nodes;
+    if (key == "res") fields >> header.resolution_m;
+    if (key.starts_with('#')) continue;
+    if (!fields) return {};
+  }
+  const bool sound = stream && std::isfinite(header.resolution_m) && header.resolution_m > 0;
+  return sound ? std::optional(header) : std::nullopt;
 }
 
 void CheckWritten(const std::ostream& stream) {
@@ -68,9 +100,29 @@ std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octr
 
 void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree) {
   const auto tree = MakeColorOcTree(octree);
-  WriteHeader(stream, "# Octomap OcTree file", *tree);
+  WriteHeader(stream, kOcTreeFile, *tree);
   tree->writeData(stream);
   CheckWritten(stream);
+}
+
+std::unique_ptr<octomap::ColorOcTree> LoadColorOcTree(const std::filesystem::path& path) {
+  std::istringstream stream(ReadFile(path));
+  const std::optional<Header> header = ReadHeader(stream);
+  if (!header || header->type != octomap::ColorOcTree(1).getTreeType()) {
+    throw Error(path, "is no OctoMap file of a ColorOcTree");
+  }
+  auto tree = std::make_unique<octomap::ColorOcTree>(header->resolution_m);
+  if (header->nodes == 0) return tree;
+  stream.exceptions(std::ios::failbit | std::ios::badbit);  // OctoMap would read on past the end
+  try {
+    tree->readData(stream);
+  } catch (const std::ios::failure&) {
+    throw Error(path, "is truncated");
+  }
+  if (tree->size() != header->nodes) {
+    throw Error(path, fmt::format("has {} nodes instead of {}", tree->size(), header->nodes));
+  }
+  return tree;
 }
 
 void WriteBinaryOcTree(std::ostream& stream, const SemanticOctree& octree) {
@@ -82,7 +134,7 @@ void WriteBinaryOcTree(std::ostream& stream, const SemanticOctree& octree) {
   tree.updateInnerOccupancy();
   tree.toMaxLikelihood();
   tree.prune();
-  WriteHeader(stream, "# Octomap OcTree binary file", tree);
+  WriteHeader(stream, kBinaryOcTreeFile, tree);
   tree.writeBinaryData(stream);
   CheckWritten(stream);
 }

@@ -4,6 +4,7 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include <filesystem>
 #include <memory>
 #include <ostream>
 #include <span>
@@ -21,6 +22,11 @@ std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octr
 /// Writes a .ot file: occupancy in full and colour; octovis, octomap_server and
 /// octomap::AbstractOcTree::read open it as a ColorOcTree. Throws Error where writing fails.
 void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree);
+
+/// Reads a .ot file of a ColorOcTree. Throws Error that names the file: missing, of another kind,
+/// or truncated. (octomap::AbstractOcTree::read would talk on the standard error stream, and makes
+/// up what a truncated file lacks.)
+std::unique_ptr<octomap::ColorOcTree> LoadColorOcTree(const std::filesystem::path& path);
 
 /// Writes a .bt file: each voxel free or occupied; octomap::OcTree::readBinary opens it.
 void WriteBinaryOcTree(std::ostream& stream, const SemanticOctree& octree);

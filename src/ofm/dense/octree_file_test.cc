@@ -5,9 +5,12 @@
 #include <sstream>
 
 #include "ofm/base/error.h"
+#include "ofm/io/test_folder.h"
 
 namespace ofm {
 namespace {
+
+using testing::HasSubstr;
 
 /// A wall of 20 x 20 voxels, half of it chair, seen from before it.
 SemanticOctree MakeWall(int scans) {
@@ -36,6 +39,10 @@ std::unique_ptr<octomap::ColorOcTree> ReadBack(const SemanticOctree& octree) {
   std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(stream));
   EXPECT_NE(tree, nullptr);
   return std::unique_ptr<octomap::ColorOcTree>(dynamic_cast<octomap::ColorOcTree*>(tree.release()));
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
 }
 
 TEST(WriteColorOcTree, OctoMapReadsEveryVoxelBack) {
@@ -78,6 +85,49 @@ TEST(WriteColorOcTree, AnEmptyMapIsAFileToo) {
   const auto tree = ReadBack(SemanticOctree(.05, {}));
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(tree->size(), 0u);
+}
+
+TEST(LoadColorOcTree, ReadsWhatWasWrittenAndSaysNothing) {
+  const TestFolder folder;
+  std::ostringstream written;
+  WriteColorOcTree(written, MakeWall(3));
+  const auto path = folder.Write("map.ot", written.str());
+  ::testing::internal::CaptureStderr();
+  const auto tree = LoadColorOcTree(path);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_DOUBLE_EQ(tree->getResolution(), .05);
+  EXPECT_TRUE(*tree == *MakeColorOcTree(MakeWall(3)));
+}
+
+TEST(LoadColorOcTree, ReadsAnEmptyMap) {
+  const TestFolder folder;
+  std::ostringstream written;
+  WriteColorOcTree(written, SemanticOctree(.05, {}));
+  EXPECT_EQ(LoadColorOcTree(folder.Write("map.ot", written.str()))->size(), 0u);
+}
+
+TEST(LoadColorOcTree, WhatIsNoSuchFileIsAnErrorThatNamesIt) {
+  const TestFolder folder;
+  std::ostringstream whole, binary;
+  WriteColorOcTree(whole, MakeWall(1));
+  WriteBinaryOcTree(binary, MakeWall(1));
+  const std::string& bytes = whole.str();
+  const auto error = [&](const std::string& contents) {
+    const auto path = folder.Write("map.ot", contents);
+    const std::string message = ErrorOf([&] { LoadColorOcTree(path); });
+    EXPECT_THAT(message, testing::StartsWith(path.string() + ": "));
+    return message;
+  };
+  EXPECT_THAT(error(bytes.substr(0, bytes.size() - 1)), HasSubstr("is truncated"));
+  EXPECT_THAT(error(bytes.substr(0, bytes.size() / 2)), HasSubstr("is truncated"));
+  for (const std::string& other :
+       {std::string(), std::string("a text\n"), bytes.substr(0, 60), binary.str(),
+        Replaced(bytes, "id ColorOcTree", "id OcTree"), Replaced(bytes, "res 0.05", "res zero"),
+        Replaced(bytes, "res 0.05", "res -1")}) {
+    EXPECT_THAT(error(other), HasSubstr("is no OctoMap file of a ColorOcTree"));
+  }
+  EXPECT_THAT(error(Replaced(bytes, "size ", "size 1")), HasSubstr(" nodes instead of 1"));
+  EXPECT_THAT(ErrorOf([] { LoadColorOcTree("/no/map.ot"); }), HasSubstr("/no/map.ot: does not"));
 }
 
 TEST(WriteBinaryOcTree, OctoMapReadsFreeAndOccupiedBack) {

@@ -60,4 +60,19 @@ AteResult ComputeAte(const Trajectory& estimate, const Trajectory& groundtruth,
   return result;
 }
 
+RigidTransform AlignPoses(const Trajectory& estimate, const Trajectory& groundtruth,
+                          double max_difference_s) {
+  const auto pairs = Associate(estimate, groundtruth, max_difference_s);
+  Eigen::Matrix3Xd estimated(3, 4 * pairs.size()), truth(3, 4 * pairs.size());
+  Eigen::Index column = 0;
+  for (const auto& [true_index, estimated_index] : pairs) {
+    for (const Eigen::Vector3d& in_camera : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
+                                             Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)}) {
+      estimated.col(column) = estimate[estimated_index].world_from_camera * in_camera;
+      truth.col(column++) = groundtruth[true_index].world_from_camera * in_camera;
+    }
+  }
+  return Align(estimated, truth);
+}
+
 }  // namespace ofm

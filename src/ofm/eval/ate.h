@@ -31,4 +31,10 @@ struct AteResult {
 AteResult ComputeAte(const Trajectory& estimate, const Trajectory& groundtruth,
                      double max_difference_s = kMaxStampDifference_s);
 
+/// truth_from_estimate from whole poses, for what the cameras saw: it also brings points one metre
+/// along the cameras' axes together. ComputeAte's is from positions alone, as the benchmark wants,
+/// and says little of the rotation about a short or straight path. Pairs and errors as there.
+RigidTransform AlignPoses(const Trajectory& estimate, const Trajectory& groundtruth,
+                          double max_difference_s = kMaxStampDifference_s);
+
 }  // namespace ofm

@@ -44,6 +44,26 @@ TEST(Ate, RecoversARigidTransform) {
   EXPECT_LT(residual.translation().norm() + residual.RotationAngle(), 1e-7);
 }
 
+TEST(AlignPoses, FindsTheRotationThatAStraightPathLeavesOpen) {
+  Trajectory truth;
+  for (int i = 0; i < 10; ++i) {
+    truth.push_back({i * 33'000'000LL, {ExpSo3({0, 0.02 * i, 0}), {0.01 * i, 0, 0}}});
+  }
+  const RigidTransform estimate_from_truth(ExpSo3({2, -1, 0.5}), {5, 6, -7});
+  const Trajectory estimate = Moved(estimate_from_truth, truth);
+  const RigidTransform residual = AlignPoses(estimate, truth) * estimate_from_truth;
+  EXPECT_LT(residual.translation().norm() + residual.RotationAngle(), 1e-7);
+}
+
+TEST(AlignPoses, AgreesWithThePositionsOfALongPath) {
+  const Trajectory truth = Helix(50);
+  const Trajectory estimate = Moved({ExpSo3({0.4, -1, 2}), {5, 6, -7}}, truth);
+  const RigidTransform difference =
+      AlignPoses(estimate, truth) * ComputeAte(estimate, truth).truth_from_estimate.Inverse();
+  EXPECT_LT(difference.translation().norm() + difference.RotationAngle(), 1e-6);
+  EXPECT_THROW(AlignPoses(Helix(1), truth), Error);
+}
+
 TEST(Ate, DoesNotCorrectScale) {
   const Trajectory truth = Helix(50);
   Trajectory estimate = truth;

@@ -2,22 +2,12 @@
 
 #include <set>
 
+#include "ofm/estimation/reprojection.h"
 #include "ofm/map/covisibility.h"
 #include "ofm/map/projection.h"
 
 namespace ofm {
 namespace {
-
-/// True where the feature lies where the projection says, within its noise.
-bool AgreesWithProjection(const FrameFeatures& features, int feature, const Projection& projection,
-                          const MeasurementModel& model) {
-  const PointObservation seen = model.Observe(features, feature);
-  const double pixel_chi2 =
-      (seen.ideal_px - projection.ideal_px).squaredNorm() / (seen.pixel_sigma * seen.pixel_sigma);
-  if (seen.depth_m <= 0) return pixel_chi2 <= kChi2Gate2;
-  const double depth_error = (1 / seen.depth_m - 1 / projection.depth_m) / seen.inverse_depth_sigma;
-  return pixel_chi2 + depth_error * depth_error <= kChi2Gate3;
-}
 
 /// The feature of the keyframe that shows the landmark by place and descriptor; -1 where none does.
 int FindInKeyframe(const Keyframe& keyframe, const Landmark& landmark,
@@ -32,8 +22,10 @@ int FindInKeyframe(const Keyframe& keyframe, const Landmark& landmark,
   query.min_octave = projection->octave - 1;
   query.max_octave = projection->octave;
   query.descriptor = landmark.descriptor;
+  const Eigen::Vector3d point_in_camera = keyframe.camera_from_world * landmark.position_in_world;
   const FeatureCandidate found = FindFeature(*keyframe.features, query, [&](int feature) {
-    return AgreesWithProjection(*keyframe.features, feature, *projection, model);
+    const PointObservation seen = model.Observe(*keyframe.features, feature);
+    return ReprojectionChiSquare(model.camera, point_in_camera, seen) <= ChiSquareGate(seen);
   });
   return found.distance <= max_hamming ? found.feature : -1;
 }

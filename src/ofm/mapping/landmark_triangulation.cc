@@ -3,6 +3,7 @@
 #include <array>
 #include <numbers>
 
+#include "ofm/estimation/reprojection.h"
 #include "ofm/geometry/triangulation.h"
 #include "ofm/map/covisibility.h"
 
@@ -35,15 +36,9 @@ Eigen::Vector2d Normalized(const PinholeCamera& camera, const Eigen::Vector2d& i
 
 /// True where the point projects onto the feature within the gate.
 bool Reprojects(const MeasurementModel& model, const FeatureOf& at, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d in_camera = at.keyframe.camera_from_world * point;
-  if (in_camera.z() <= 0) return false;
   const PointObservation seen = model.Observe(*at.keyframe.features, at.feature);
-  const Eigen::Vector2d error = model.camera.ProjectIdeal(in_camera) - seen.ideal_px;
-  if (error.squaredNorm() > kChi2Gate2 * seen.pixel_sigma * seen.pixel_sigma) return false;
-  if (seen.depth_m <= 0) return true;
-  const double depth_error = 1 / seen.depth_m - 1 / in_camera.z();
-  return depth_error * depth_error <=
-         kChi2Gate2 * seen.inverse_depth_sigma * seen.inverse_depth_sigma;
+  return ReprojectionChiSquare(model.camera, at.keyframe.camera_from_world * point, seen) <=
+         ChiSquareGate(seen);
 }
 
 std::optional<Eigen::Vector3d> Triangulate(const MeasurementModel& model, const FeatureOf& a,

@@ -35,7 +35,6 @@ DnnNetwork::DnnNetwork(const std::filesystem::path& path, cv::Size input) : path
   }
   const std::string bytes = ReadFile(path);
   input_ = FindInputSize(bytes, path, input);
-  const ScopedOpenCvSilence silence;
   try {
     net_ = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
     net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);

@@ -15,8 +15,8 @@ class DnnNetwork {
  public:
   /// Loads `path` and runs it once on a grey image. `input` replaces the input's size in the file
   /// and is needed where the file leaves it open; empty = as the file says. Throws Error where the
-  /// file is missing, no network, or uses what OpenCV cannot run. Meanwhile OpenCV's log level is
-  /// lowered for the whole process: the error says what the log would have said.
+  /// file is missing, no network, or uses what OpenCV cannot run; OpenCV then also logs, where the
+  /// process has not silenced it (cv::utils::logging::setLogLevel).
   explicit DnnNetwork(const std::filesystem::path& path, cv::Size input = {});
 
   cv::Size input_size() const { return input_; }

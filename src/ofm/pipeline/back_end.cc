@@ -17,10 +17,12 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
 
 std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   KeyframeId id;
+  is_whole_ = false;
   {
     ScopedStageTimer timer(times_, "keyframe_insertion");
     id = slam_.mapper().Insert(job.candidate, job.sightings);
   }
+  is_whole_ = true;
   keyframe_of_frame_[job.candidate.frame_id] = id;
   if (!job.labelled.depth_m.empty()) {
     ScopedStageTimer timer(times_, "semantic_cloud");
@@ -32,16 +34,19 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
 
 std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
   ScopedStageTimer timer(times_, "mapping");
+  is_whole_ = false;
   slam_.mapper().Refine(stop);
+  is_whole_ = true;
   return slam_.mapper().Snapshot();
 }
 
 void BackEnd::Finish(RunOutcome& outcome) {
-  if (slam_.options().final_adjustment) {
+  outcome.map = slam_.mapper().Snapshot();
+  if (slam_.options().final_adjustment && is_whole_) {
     ScopedStageTimer timer(times_, "final_adjustment");
     slam_.mapper().AdjustAll();
+    outcome.map = slam_.mapper().Snapshot();
   }
-  outcome.map = slam_.mapper().Snapshot();
   if (!slam_.options().build_semantic_map) return;
   ScopedStageTimer timer(times_, "semantic_map");
   std::map<KeyframeId, RigidTransform> poses;

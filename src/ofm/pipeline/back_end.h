@@ -19,17 +19,22 @@ struct KeyframeJob {
 /// The images and labels of a frame as the semantic map takes them.
 LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
 
-/// Runs the mapping and dense stages of `slam` for one keyframe at a time. Serves one thread.
+/// Runs the mapping and dense stages of `slam` for one keyframe at a time. Serves one thread. Once
+/// Insert or Refine has thrown, only Finish may follow.
 class BackEnd {
  public:
   explicit BackEnd(Slam& slam) : slam_(slam) {}
+  virtual ~BackEnd() = default;
+  BackEnd(const BackEnd&) = delete;
+  BackEnd& operator=(const BackEnd&) = delete;
 
   /// Puts the keyframe into the map; gives the snapshot that tracking can use at once.
-  std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
+  virtual std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
   /// Everything that may take its time; gives the refined snapshot.
-  std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
-  /// Final adjustment and the semantic map, from the poses that then are known.
-  void Finish(RunOutcome& outcome);
+  virtual std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
+  /// Final adjustment and the semantic map, from the poses that then are known. `outcome` has a map
+  /// even where this throws. A map whose last change was cut short by an error is not adjusted.
+  virtual void Finish(RunOutcome& outcome);
 
   /// Keyframe made of a frame, for the trajectory; by frame id.
   const std::map<FrameId, KeyframeId>& keyframe_of_frame() const { return keyframe_of_frame_; }
@@ -39,6 +44,7 @@ class BackEnd {
   Slam& slam_;
   StageTimes times_;
   std::map<FrameId, KeyframeId> keyframe_of_frame_;
+  bool is_whole_ = true;  // no change of the map was cut short
 };
 
 }  // namespace ofm

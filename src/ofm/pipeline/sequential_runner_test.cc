@@ -182,5 +182,28 @@ TEST(RunSequential, MakesNoSemanticMapWhereNoneIsWanted) {
   EXPECT_EQ(outcome.counts.frames_tracked, 4U);
 }
 
+TEST(RunSequential, KeepsWhatWasComputedBeforeMappingFailed) {
+  const Recording recording(8);
+  const auto slam = MakeSlam(recording, test::KeyframesOften());
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kRefine, 3, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunSequential(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_GE(outcome.trajectory.size(), 3U);
+  EXPECT_LT(outcome.trajectory.size(), 8U);
+  EXPECT_EQ(outcome.counts.keyframes, 3U);
+  EXPECT_TRUE(outcome.semantic_map);
+}
+
+TEST(RunSequential, KeepsTheTrajectoryWhereTheMapCannotBeFinished) {
+  const Recording recording(4);
+  const auto slam = MakeSlam(recording);
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kFinish, 1, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunSequential(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_EQ(outcome.trajectory.size(), 4U);
+}
+
 }  // namespace
 }  // namespace ofm

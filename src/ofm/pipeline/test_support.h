@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <memory>
+#include <new>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ofm/base/error.h"
+#include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/sim/sim_sequence.h"
 
@@ -100,6 +102,48 @@ inline std::unique_ptr<Slam> MakeSlam(const Recording& recording,
   return std::make_unique<Slam>(recording.sequence.camera(), options,
                                 std::make_unique<TruthSegmenter>(recording.sequence));
 }
+
+/// Options under which every other frame becomes a keyframe.
+inline SlamOptions KeyframesOften() {
+  SlamOptions options = QuickOptions();
+  options.tracking.keyframe.max_frames = 2;
+  return options;
+}
+
+inline void RunOutOfMemory() { throw std::bad_alloc(); }
+
+enum class BackEndStep { kInsert, kRefine, kFinish };
+
+/// Fails the n-th time that it comes to a step, by an exception that `fail` throws.
+class FailingBackEnd : public BackEnd {
+ public:
+  FailingBackEnd(Slam& slam, BackEndStep step, int time, std::function<void()> fail)
+      : BackEnd(slam), slam_(slam), step_(step), left_(time), fail_(std::move(fail)) {}
+
+  std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job) override {
+    ComeTo(BackEndStep::kInsert);
+    return BackEnd::Insert(std::move(job));
+  }
+  std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop) override {
+    ComeTo(BackEndStep::kRefine);
+    return BackEnd::Refine(stop);
+  }
+  void Finish(RunOutcome& outcome) override {
+    outcome.map = slam_.mapper().Snapshot();
+    ComeTo(BackEndStep::kFinish);
+    BackEnd::Finish(outcome);
+  }
+
+ private:
+  void ComeTo(BackEndStep step) {
+    if (step == step_ && --left_ == 0) fail_();
+  }
+
+  Slam& slam_;
+  BackEndStep step_;
+  int left_;
+  std::function<void()> fail_;
+};
 
 /// Calls a function for each frame.
 class CallingObserver : public RunObserver {

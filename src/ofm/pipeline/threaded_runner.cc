@@ -6,6 +6,7 @@
 #include "ofm/base/latest.h"
 #include "ofm/base/time.h"
 #include "ofm/pipeline/back_end.h"
+#include "ofm/pipeline/keep_error.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/pipeline/tracking_loop.h"
 
@@ -23,14 +24,13 @@ struct ThreadEnd {
 
 template <class Work>
 ThreadEnd Guard(Work&& work) {
+  ThreadEnd end;
   try {
-    work();
+    KeepError(end.error, std::forward<Work>(work));
   } catch (const std::logic_error&) {
-    return {{}, std::current_exception()};
-  } catch (const std::exception& error) {
-    return {error.what(), {}};
+    end.exception = std::current_exception();
   }
-  return {};
+  return end;
 }
 
 /// What the threads of a run share.
@@ -98,10 +98,15 @@ void Track(TrackingLoop& tracking, Exchange& exchange) {
 }  // namespace
 
 RunOutcome RunThreaded(Slam& slam, FrameSource& source, const RunContext& context) {
+  BackEnd back_end(slam);
+  return RunThreaded(slam, back_end, source, context);
+}
+
+RunOutcome RunThreaded(Slam& slam, BackEnd& back_end, FrameSource& source,
+                       const RunContext& context) {
   RunOutcome outcome;
   const std::int64_t wall_start = SteadyTimeNs(), cpu_start = ProcessCpuTimeNs();
   TrackingLoop tracking(slam, context);
-  BackEnd back_end(slam);
   Exchange exchange;
   exchange.map.Set(slam.mapper().Snapshot());
   ThreadEnd front_end_end, back_end_end;
@@ -117,7 +122,7 @@ RunOutcome RunThreaded(Slam& slam, FrameSource& source, const RunContext& contex
     if (outcome.error.empty()) outcome.error = end.error;
   }
   outcome.times.Merge(exchange.front_end_times);
-  back_end.Finish(outcome);
+  KeepError(outcome.error, [&] { back_end.Finish(outcome); });
   tracking.Finish(back_end, outcome);
   outcome.wall_s = NanosecondsToSeconds(SteadyTimeNs() - wall_start);
   outcome.process_cpu_s = NanosecondsToSeconds(ProcessCpuTimeNs() - cpu_start);

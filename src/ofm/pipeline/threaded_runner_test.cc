@@ -122,6 +122,64 @@ TEST(RunThreaded, ProgrammersErrorsOfAnyThreadReachTheCaller) {
   EXPECT_THROW(RunThreaded(slam, source, {}), std::logic_error);
 }
 
+TEST(RunThreaded, KeepsWhatWasComputedBeforeMappingFailed) {
+  const Recording recording(24);
+  const auto slam = MakeSlam(recording, test::KeyframesOften());
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kInsert, 3, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunThreaded(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_GE(outcome.trajectory.size(), 3U) << "each keyframe is a frame";
+  EXPECT_EQ(outcome.trajectory.size(), outcome.counts.frames_tracked);
+  EXPECT_LT(Ate_m(outcome.trajectory, recording), kMaxAte_m);
+  EXPECT_EQ(outcome.counts.keyframes, 2U);
+  EXPECT_TRUE(outcome.semantic_map);
+}
+
+TEST(RunThreaded, KeepsWhatWasComputedBeforeRefiningFailed) {
+  const Recording recording(6);
+  const auto slam = MakeSlam(recording);
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kRefine, 1, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunThreaded(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_GE(outcome.trajectory.size(), 1U);
+  EXPECT_GE(outcome.counts.keyframes, 1U);
+  EXPECT_TRUE(outcome.semantic_map);
+}
+
+TEST(RunThreaded, EndsWhereMappingFailsBeforeThereIsAMap) {
+  const Recording recording(4);
+  const auto slam = MakeSlam(recording);
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kInsert, 1, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunThreaded(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_EQ(outcome.counts.keyframes, 0U);
+  EXPECT_LE(outcome.trajectory.size(), 1U) << "the frame that would have begun the map";
+  ASSERT_TRUE(outcome.map);
+}
+
+TEST(RunThreaded, KeepsTheTrajectoryWhereTheMapCannotBeFinished) {
+  const Recording recording(6);
+  const auto slam = MakeSlam(recording);
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kFinish, 1, test::RunOutOfMemory);
+  PlaySource source(recording.images);
+  const RunOutcome outcome = RunThreaded(*slam, back_end, source, {});
+  EXPECT_EQ(outcome.error, std::bad_alloc().what());
+  EXPECT_EQ(outcome.trajectory.size(), 6U);
+  EXPECT_FALSE(outcome.semantic_map);
+}
+
+TEST(RunThreaded, ProgrammersErrorsInMappingReachTheCaller) {
+  const Recording recording(24);
+  const auto slam = MakeSlam(recording, test::KeyframesOften());
+  test::FailingBackEnd back_end(*slam, test::BackEndStep::kInsert, 2,
+                                [] { throw std::logic_error("a defect"); });
+  PlaySource source(recording.images);
+  EXPECT_THROW(RunThreaded(*slam, back_end, source, {}), std::logic_error);
+}
+
 TEST(RunThreaded, AnObserversErrorEndsTheThreadsAndReachesTheCaller) {
   const Recording recording(12);
   test::CallingObserver observer([](const FrameReport& report) {

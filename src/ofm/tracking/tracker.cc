@@ -28,6 +28,7 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
   }
   SyncWithMap(*input.map);
   TrackingResult result = TrackOrRelocalize(AlignDepth(input, velocity_));
+  // Once more with the motion that was found: the predicted one is not good enough for landmarks.
   const TrackingInput aligned = AlignDepth(input, VelocityTo(input, result));
   if (HasPose(result.status) &&
       NeedsKeyframe(GatherKeyframeEvidence(model_, aligned, result, last_keyframe_frame_),

@@ -1,0 +1,38 @@
+#include "ofm/pipeline/back_end.h"
+
+#include <gmock/gmock.h>
+
+#include "ofm/pipeline/test_support.h"
+
+namespace ofm {
+namespace {
+
+using testing::Contains;
+using testing::Key;
+using testing::Not;
+
+TEST(BackEnd, DoesNotAdjustAMapWhoseLastChangeWasCutShort) {
+  const test::Recording recording(1);
+  for (const std::size_t landmarks : {0, 3}) {
+    const auto slam = test::MakeSlam(recording);
+    BackEnd back_end(*slam);
+    KeyframeJob job;
+    job.candidate.features = std::make_shared<FrameFeatures>();
+    job.candidate.landmarks.resize(landmarks);
+    RunOutcome outcome;
+    if (landmarks == 0) {
+      back_end.Insert(std::move(job));
+      back_end.Finish(outcome);
+      EXPECT_THAT(back_end.times().stages(), Contains(Key("final_adjustment")));
+    } else {
+      EXPECT_THROW(back_end.Insert(std::move(job)), std::logic_error) << "more than features";
+      back_end.Finish(outcome);
+      EXPECT_THAT(back_end.times().stages(), Not(Contains(Key("final_adjustment"))));
+    }
+    ASSERT_TRUE(outcome.map);
+    EXPECT_TRUE(outcome.semantic_map);
+  }
+}
+
+}  // namespace
+}  // namespace ofm
