@@ -19,7 +19,8 @@ struct FrameMotion {
 
 /// Where a frame must not be trusted, and the points that told so.
 struct DynamicMask {
-  cv::Mat mask;                                 ///< CV_8UC1 of the image's size, 255 = dynamic
+  cv::Mat mask;      ///< CV_8UC1 of the image's size, 255 = dynamic
+  cv::Mat unmapped;  ///< CV_8UC1, 255 = keep out of dense maps: also what may move; empty = mask
   std::vector<Eigen::Vector2f> dynamic_points;  ///< [px] found moving by optical flow
   cv::Mat static_probability;                   ///< CV_8UC1, 255 = surely; empty = not told
   std::optional<FrameMotion> camera_motion;     ///< where the flow tells it

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "ofm/base/options.h"
+#include "ofm/dynamics/instance_motion.h"
+#include "ofm/dynamics/instance_tracker.h"
+#include "ofm/dynamics/mask_refinement.h"
 #include "ofm/dynamics/motion_options.h"
 
 namespace ofm {
@@ -52,18 +55,27 @@ struct EpipolarOptions {
 
 struct DynamicsOptions {
   DynamicsMode mode = DynamicsMode::kFull;
-  std::vector<std::string> dynamic_classes = {"person"};  ///< moving whatever they do
-  int dilation_px = 7;              ///< radius by which masks grow, mode `paper`
-  double exclusion_radius_px = 10;  ///< around a point found moving, mode `paper`
-  double crowded_share = 0.15;      ///< of the image masked, from which more features are taken
-  double crowded_features = 1.5;    ///< times as many
-  EpipolarOptions epipolar = {};    ///< of mode `paper`
-  MotionOptions motion = {};        ///< of mode `full`
+  /// Mode `paper`: moving whatever they do. Mode `full`: presumed to, until they stand still.
+  std::vector<std::string> dynamic_classes = {"person"};
+  std::vector<std::string> always_dynamic = {};  ///< moving whatever they do
+  std::vector<std::string> never_dynamic = {};   ///< standing still whatever seems to move
+  int dilation_px = 7;                           ///< radius by which masks grow, mode `paper`
+  double exclusion_radius_px = 10;               ///< around a point found moving, mode `paper`
+  double crowded_share = 0.15;    ///< of the image masked, from which more features are taken
+  double crowded_features = 1.5;  ///< times as many
+  EpipolarOptions epipolar = {};  ///< of mode `paper`
+  MotionOptions motion = {};      ///< these four: of mode `full`
+  MaskRefinementOptions refinement = {};
+  InstanceTrackerOptions tracker = {};
+  InstanceMotionOptions instance_motion = {};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("mode", self.mode, "what is culled");
-    visit("dynamic_classes", self.dynamic_classes, "classes that are moving whatever they do");
+    visit("dynamic_classes", self.dynamic_classes,
+          "classes that move: mode paper whatever they do, mode full until they stand still");
+    visit("always_dynamic", self.always_dynamic, "classes that move whatever they do");
+    visit("never_dynamic", self.never_dynamic, "classes that never move (mode full)");
     visit("dilation_px", self.dilation_px, "radius by which masks grow, mode paper [px]",
           Range{0, 100});
     visit("exclusion_radius_px", self.exclusion_radius_px,
@@ -73,6 +85,9 @@ struct DynamicsOptions {
     visit("crowded_features", self.crowded_features, "times as many features there", Range{1, 5});
     visit("epipolar", self.epipolar, "motion by epipolar geometry, mode paper");
     visit("motion", self.motion, "motion by flow and depth, mode full");
+    visit("refinement", self.refinement, "instance masks and depth, mode full");
+    visit("tracker", self.tracker, "instances over time, mode full");
+    visit("instance_motion", self.instance_motion, "which instances move, mode full");
   }
 };
 

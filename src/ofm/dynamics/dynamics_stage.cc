@@ -1,36 +1,15 @@
 #include "ofm/dynamics/dynamics_stage.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "ofm/base/check.h"
-#include "ofm/base/error.h"
 #include "ofm/dynamics/epipolar_check.h"
 #include "ofm/dynamics/mask_dilation.h"
-#include "ofm/perception/class_names.h"
 
 namespace ofm {
 namespace {
-
-std::vector<ClassId> FindDynamicClasses(const std::vector<std::string>& names,
-                                        const std::vector<std::string>& class_names) {
-  std::vector<ClassId> classes;
-  if (class_names.empty()) return classes;
-  for (const std::string& name : names) {
-    classes.push_back(FindClass(class_names, name));
-    if (!classes.back().valid()) {
-      throw Error(
-          fmt::format("dynamics.dynamic_classes: the segmenter knows no class '{}'; it has {}",
-                      name, fmt::join(class_names, ", ")));
-    }
-  }
-  return classes;
-}
 
 bool IsSet(const cv::Mat& mask, const Eigen::Vector2f& point) {
   const int x = static_cast<int>(std::lround(point.x()));
@@ -54,10 +33,8 @@ void AddDiscs(const std::vector<Eigen::Vector2f>& centres, double radius_px, cv:
 
 DynamicsStage::DynamicsStage(const DynamicsOptions& options, const PinholeCamera& camera,
                              const std::vector<std::string>& class_names)
-    : options_(options),
-      camera_(camera),
-      dynamic_classes_(FindDynamicClasses(options.dynamic_classes, class_names)) {
-  if (options.mode == DynamicsMode::kFull) full_.emplace(options, camera, dynamic_classes_);
+    : options_(options), camera_(camera), policies_(options, class_names) {
+  if (options.mode == DynamicsMode::kFull) full_.emplace(options, camera, policies_);
 }
 
 DynamicMask DynamicsStage::Process(const DynamicsInput& input) {
@@ -76,9 +53,7 @@ DynamicMask DynamicsStage::Process(const DynamicsInput& input) {
 
 void DynamicsStage::AddInstances(const Segmentation& segmentation, cv::Mat& mask) const {
   for (const Instance& instance : segmentation.instances) {
-    const bool is_dynamic = std::find(dynamic_classes_.begin(), dynamic_classes_.end(),
-                                      instance.class_id) != dynamic_classes_.end();
-    if (!is_dynamic) continue;
+    if (!policies_.MayMove(instance.class_id)) continue;
     OFM_CHECK(instance.mask.size() == mask.size());
     AddDilated(instance.mask, options_.dilation_px, mask);
   }

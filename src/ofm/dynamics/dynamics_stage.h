@@ -44,7 +44,7 @@ class DynamicsStage {
 
   DynamicsOptions options_;
   PinholeCamera camera_;
-  std::vector<ClassId> dynamic_classes_;
+  ClassPolicies policies_;
   std::optional<FullDynamics> full_;
 };
 

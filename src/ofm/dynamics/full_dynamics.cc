@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "ofm/base/time.h"
 #include "ofm/dynamics/mask_dilation.h"
 #include "ofm/dynamics/mask_upsampling.h"
 
@@ -18,44 +19,102 @@ cv::Mat StaticProbability(const cv::Mat& log_odds_of_moving) {
   return probability;
 }
 
+double ShareOf(const cv::Mat& mask) {
+  return static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
+}
+
 }  // namespace
 
 FullDynamics::FullDynamics(const DynamicsOptions& options, const PinholeCamera& camera,
-                           std::vector<ClassId> dynamic_classes)
-    : options_(options),
-      dynamic_classes_(std::move(dynamic_classes)),
-      judge_(camera, options.motion) {}
+                           const ClassPolicies& policies)
+    : options_(options), policies_(policies), judge_(camera, options.motion) {}
 
 DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation) {
+  const std::int64_t last_stamp_ns = state_.last ? state_.last->stamp_ns : frame.stamp_ns;
+  FollowInstances(frame, segmentation);
   const LatticeFrame lattice_frame = judge_.lattice().MakeFrame(frame);
-  const std::int64_t last_stamp_ns = state_.last ? state_.last->stamp_ns : 0;
   const MotionVerdict verdict =
-      judge_.Process({lattice_frame, InstancePrior(segmentation), frame.id.value}, state_);
+      judge_.Process({lattice_frame, InstancePrior(), frame.id.value}, state_);
+  JudgeInstances(verdict, NanosecondsToSeconds(frame.stamp_ns - last_stamp_ns));
+
   DynamicMask result;
-  result.mask = cv::Mat::zeros(frame.gray.size(), CV_8UC1);
-  AddDilated(UpsampleMask(judge_.lattice().cells(), verdict.belief > 0, lattice_frame.depth_m,
-                          frame.depth_m),
-             options_.motion.dilation_px, result.mask);
+  result.mask = MaskOf(verdict, lattice_frame, frame, segmentation);
+  result.unmapped = result.mask.clone();
+  for (const InstanceTrack& track : tracks_.tracks) {
+    AddDilated(track.instance.mask, options_.dilation_px, result.unmapped);
+  }
   result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
   if (verdict.camera_motion.is_measured) {
     result.camera_motion =
         FrameMotion{last_stamp_ns, verdict.camera_motion.last_from_current.Inverse()};
   }
-  result.masked_share =
-      static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
+  result.masked_share = ShareOf(result.mask);
   return result;
 }
 
-cv::Mat FullDynamics::InstancePrior(const Segmentation& segmentation) const {
+/// Refines the instances that may move and brings their tracks up to this frame.
+void FullDynamics::FollowInstances(const RgbdFrame& frame, const Segmentation& segmentation) {
+  std::vector<Instance> movers;
+  for (const Instance& instance : segmentation.instances) {
+    if (!policies_.MayMove(instance.class_id)) continue;
+    RefinedMask refined = RefineMask(instance.mask, frame.depth_m, options_.refinement);
+    if (refined.verdict == MaskVerdict::kDistrusted) continue;
+    Instance mover = instance;
+    mover.mask = std::move(refined.mask);
+    mover.box = cv::boundingRect(mover.mask);
+    if (!mover.box.empty()) movers.push_back(std::move(mover));
+  }
+  if (frame.stamp_ns <= tracks_.stamp_ns) tracks_ = {};  // a new recording
+  tracks_ = TrackInstances(tracks_, {movers, frame.depth_m, frame.stamp_ns}, options_.tracker);
+}
+
+double FullDynamics::MotionOf(const InstanceTrack& track) const {
+  if (policies_.Of(track.instance.class_id) == ClassPolicy::kAlwaysDynamic) {
+    return options_.instance_motion.limit;
+  }
+  const auto known = motions_.find(track.instance.id);
+  return known == motions_.end() ? options_.instance_motion.presumed_log_odds : known->second;
+}
+
+/// Log-odds per cell of what is believed to move as a whole. One that stands still brings nothing
+/// along: its cells are judged as any others.
+cv::Mat FullDynamics::InstancePrior() const {
   const IdealLattice& cells = judge_.lattice().cells();
   cv::Mat prior(cells.size(), CV_32FC1, cv::Scalar(0));
-  constexpr float kPresumedMoving = 4;
-  for (const Instance& instance : segmentation.instances) {
-    const bool is_dynamic = std::find(dynamic_classes_.begin(), dynamic_classes_.end(),
-                                      instance.class_id) != dynamic_classes_.end();
-    if (is_dynamic) prior.setTo(kPresumedMoving, cells.SampleNearest(instance.mask));
+  for (const InstanceTrack& track : tracks_.tracks) {
+    if (MotionOf(track) <= 0) continue;
+    prior.setTo(options_.instance_motion.limit, cells.SampleNearest(track.instance.mask));
   }
   return prior;
+}
+
+/// Learns from the flow which instances move; forgets those that are gone.
+void FullDynamics::JudgeInstances(const MotionVerdict& verdict, double elapsed_s) {
+  InstanceMotions now;
+  for (const InstanceTrack& track : tracks_.tracks) {
+    const cv::Mat cells = judge_.lattice().cells().SampleNearest(track.instance.mask);
+    now[track.instance.id] =
+        UpdateInstanceMotion(MotionOf(track), CountEvidence(verdict.flow_evidence, cells),
+                             elapsed_s, options_.instance_motion);
+  }
+  motions_ = std::move(now);
+}
+
+cv::Mat FullDynamics::MaskOf(const MotionVerdict& verdict, const LatticeFrame& lattice_frame,
+                             const RgbdFrame& frame, const Segmentation& segmentation) const {
+  const IdealLattice& cells = judge_.lattice().cells();
+  cv::Mat moving = UpsampleMask(cells, verdict.belief > 0, lattice_frame.depth_m, frame.depth_m);
+  for (const InstanceTrack& track : tracks_.tracks) {
+    if (MotionOf(track) > 0) moving.setTo(255, track.instance.mask);
+  }
+  for (const Instance& instance : segmentation.instances) {
+    if (policies_.Of(instance.class_id) == ClassPolicy::kNeverDynamic) {
+      moving.setTo(0, instance.mask);
+    }
+  }
+  cv::Mat mask = cv::Mat::zeros(moving.size(), CV_8UC1);
+  AddDilated(moving, options_.motion.dilation_px, mask);
+  return mask;
 }
 
 }  // namespace ofm

@@ -8,12 +8,12 @@
 namespace ofm {
 
 struct MaskRefinementOptions {
-  double depth_margin_m = 0.33;   ///< around the object's depths; what is farther off is not object
-  double region_step_m = 0.05;    ///< between neighbouring pixels of one surface
-  int growth_px = 12;             ///< how far a mask grows along the object's surface
-  double max_growth_share = 0.2;  ///< of the mask's area that is added at most
-  double min_part_share = 0.05;   ///< of the largest part; smaller parts are dropped
-  int max_hole_px = 400;          ///< pixels of the holes that are closed
+  double depth_margin_m = 0.33;  ///< around the object's depths; what is farther off is not object
+  double region_step_m = 0.05;   ///< between neighbouring pixels of one surface
+  int growth_px = 0;  ///< how far a mask grows along the object's surface; more costs accuracy
+  double max_growth_share = 0.2;    ///< of the mask's area that is added at most
+  double min_part_share = 0.05;     ///< of the largest part; smaller parts are dropped
+  int max_hole_px = 400;            ///< pixels of the holes that are closed
   double min_measured_share = 0.2;  ///< with less depth than this a mask stays as it is
   double max_image_share = 0.85;    ///< a mask over more of the image is not believed
 

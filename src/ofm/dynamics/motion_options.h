@@ -95,7 +95,7 @@ struct MotionOptions {
   int cell_px = 4;           ///< side of a cell [px]; even
   double min_depth_m = 0.3;  ///< nearer and farther depth is not used
   double max_depth_m = 5;
-  int dilation_px = 2;  ///< radius by which the mask grows
+  int dilation_px = 1;  ///< radius by which the mask grows
   CameraMotionOptions camera_motion = {};
   FlowEvidenceOptions flow = {};
   FreeSpaceOptions free_space = {};

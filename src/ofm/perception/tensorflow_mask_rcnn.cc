@@ -47,7 +47,6 @@ std::string ReadTextGraph(const std::filesystem::path& path) {
 
 TensorflowMaskRcnn::TensorflowMaskRcnn(const TensorflowMaskRcnnModel& model) : model_(model) {
   const std::string graph = ReadGraph(model.graph), text = ReadTextGraph(model.text_graph);
-  const ScopedOpenCvSilence silence;
   try {
     net_ = cv::dnn::readNetFromTensorflow(graph.data(), graph.size(), text.data(), text.size());
     net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);

@@ -11,7 +11,8 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
   labelled.depth_m = prepared.frame.depth_m;
   labelled.class_ids = labels.labels;
   labelled.confidence = labels.confidence;
-  labelled.dynamic_mask = prepared.dynamic.mask;
+  labelled.dynamic_mask =
+      prepared.dynamic.unmapped.empty() ? prepared.dynamic.mask : prepared.dynamic.unmapped;
   return labelled;
 }
 
