@@ -17,9 +17,12 @@ using ::testing::IsEmpty;
 
 const std::vector<std::string> kClasses = {"person", "cup"};
 
-/// Believes a fundamental matrix on which half of the points agree: these scenes have many movers.
-const DynamicsOptions kHalf{.epipolar = {.min_inlier_share = 0.5}};
+constexpr DynamicsMode kPaper = DynamicsMode::kPaper;
 
+/// Believes a fundamental matrix on which half of the points agree: these scenes have many movers.
+const DynamicsOptions kHalf{.mode = kPaper, .epipolar = {.min_inlier_share = 0.5}};
+
+/// Modes `off` and `paper`; `full` has its own tests.
 class DynamicsStageTest : public ::testing::Test {
  protected:
   DynamicsStageTest() { frame_.gray = cv::Mat::zeros(480, 640, CV_8UC1); }
@@ -71,7 +74,7 @@ TEST_F(DynamicsStageTest, OffMeansNothingIsMasked) {
 
 TEST_F(DynamicsStageTest, PeopleAreMaskedWithAMargin) {
   AddInstance(0, {100, 100, 50, 60});
-  const DynamicMask mask = Process({}, {.dilation_px = 5});
+  const DynamicMask mask = Process({}, {.mode = kPaper, .dilation_px = 5});
   cv::Mat expected;
   cv::dilate(segmentation_.instances[0].mask, expected,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(11, 11)));
@@ -83,7 +86,9 @@ TEST_F(DynamicsStageTest, PeopleAreMaskedWithAMargin) {
 TEST_F(DynamicsStageTest, OtherClassesAreLeft) {
   AddInstance(1, {100, 100, 50, 60});
   EXPECT_EQ(cv::countNonZero(Process({}).mask), 0);
-  EXPECT_GT(cv::countNonZero(Process({}, {.dynamic_classes = {"person", "cup"}}).mask), 50 * 60);
+  EXPECT_GT(
+      cv::countNonZero(Process({}, {.mode = kPaper, .dynamic_classes = {"person", "cup"}}).mask),
+      50 * 60);
 }
 
 TEST_F(DynamicsStageTest, MisspeltClassIsRefusedUnlessThereIsNoNetwork) {
@@ -135,7 +140,8 @@ TEST_F(DynamicsStageTest, MotionUnderTheThresholdIsLeft) {
   const test::Motion motion{.camera_shift_m = {0.05, 0, 0}, .mover_shift_m = {0, -0.012, 0}};
   const FlowResult flow = scene_.Flow(motion, 1);  // 4 px
   EXPECT_THAT(Process(flow).dynamic_points, IsEmpty());
-  const DynamicsOptions sharper{.epipolar = {.threshold_px = 2, .min_inlier_share = 0.5}};
+  const DynamicsOptions sharper{.mode = kPaper,
+                                .epipolar = {.threshold_px = 2, .min_inlier_share = 0.5}};
   EXPECT_GT(Compare(flow, Process(flow, sharper)).share_of_mover, 0.95);
 }
 
@@ -162,7 +168,7 @@ TEST_F(DynamicsStageTest, FlowIsIgnoredWhereTooFewPointsAreOffThePeople) {
 TEST_F(DynamicsStageTest, FlowIsIgnoredWhereNoMotionExplainsTheMostOfIt) {
   const FlowResult flow = scene_.Flow({.noise_px = 30}, 1);
   EXPECT_THAT(Process(flow).dynamic_points, IsEmpty());
-  const DynamicsOptions trusting{.epipolar = {.min_inlier_share = 0}};
+  const DynamicsOptions trusting{.mode = kPaper, .epipolar = {.min_inlier_share = 0}};
   EXPECT_GT(Process(flow, trusting).dynamic_points.size(), 50U);
 }
 
@@ -181,7 +187,7 @@ TEST_F(DynamicsStageTest, DiscsHaveTheRadiusAskedForAndMayReachOverTheBorder) {
     flow.current.push_back(now);
     flow.status.push_back(FlowStatus::kTracked);
   }
-  const DynamicMask mask = Process(flow, {.exclusion_radius_px = 8});
+  const DynamicMask mask = Process(flow, {.mode = kPaper, .exclusion_radius_px = 8});
   ASSERT_EQ(mask.dynamic_points.size(), 2U);
   EXPECT_EQ(mask.mask.at<std::uint8_t>(200, 308), 255);
   EXPECT_EQ(mask.mask.at<std::uint8_t>(200, 310), 0);

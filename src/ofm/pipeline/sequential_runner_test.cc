@@ -65,7 +65,7 @@ TEST(RunSequential, TracksEveryFrameAndMapsTheRoom) {
 TEST(RunSequential, TellsTheTimeOfEveryStage) {
   const Recording recording(6);
   const RunOutcome outcome = RunOnce(recording);
-  for (const char* stage : {"segmentation", "optical_flow", "dynamics", "features", "tracking"}) {
+  for (const char* stage : {"segmentation", "dynamics", "features", "tracking"}) {
     ASSERT_THAT(outcome.times.stages(), Contains(Key(stage)));
     EXPECT_EQ(outcome.times.stages().at(stage).wall_ms.size(), 6U) << stage;
   }
