@@ -104,7 +104,7 @@ void Demo(const DemoArguments& arguments) {
              arguments.seed);
   std::fflush(stdout);
   WriteTumSequence(SimSequence(DemoSequence(arguments)), arguments.output / "sequence");
-  const std::array reports = {RunDemo(arguments, "with_culling", DynamicsMode::kPaper),
+  const std::array reports = {RunDemo(arguments, "with_culling", DynamicsMode::kFull),
                               RunDemo(arguments, "without_culling", DynamicsMode::kOff)};
   fmt::print("\n");
   PrintTable(reports);

@@ -30,7 +30,7 @@ double Iou(const cv::Mat& a, const cv::Mat& b) {
 TEST(MaskRefinement, BackgroundInAMaskGoes) {
   const Scene scene;
   const cv::Mat mask = scene.MaskOf({80, 30, 115, 205});
-  const RefinedMask refined = RefineMask(mask, scene.depth_m, {});
+  const RefinedMask refined = RefineMask(mask, scene.depth_m, {.growth_px = 12});
   EXPECT_EQ(refined.verdict, MaskVerdict::kRefined);
   EXPECT_LT(Iou(mask, scene.Truth()), 0.65);
   EXPECT_GT(Iou(refined.mask, scene.Truth()), 0.95);
@@ -39,7 +39,8 @@ TEST(MaskRefinement, BackgroundInAMaskGoes) {
 TEST(MaskRefinement, MissingLimbsAreFound) {
   const Scene scene;
   const cv::Mat mask = scene.MaskOf({108, 48, 64, 164});
-  const RefinedMask refined = RefineMask(mask, scene.depth_m, {.max_growth_share = 0.5});
+  const RefinedMask refined =
+      RefineMask(mask, scene.depth_m, {.growth_px = 12, .max_growth_share = 0.5});
   EXPECT_LT(Iou(mask, scene.Truth()), 0.75);
   EXPECT_GT(Iou(refined.mask, scene.Truth()), 0.97);
 }
