@@ -15,7 +15,7 @@ void OptionArguments::AddTo(CLI::App& command) {
                      "Network: ONNX, for mask-rcnn also TensorFlow's .pb; see ofm-slam models");
   command.add_option("--model-graph", model_graph,
                      "OpenCV's text graph (.pbtxt) for a .pb; default: the one beside it");
-  command.add_option("--dynamics", dynamics, "What is culled: off, paper");
+  command.add_option("--dynamics", dynamics, "What is culled: off, paper, full");
 }
 
 SlamOptions OptionArguments::Resolve() const {
