@@ -71,6 +71,8 @@ void AddRunCommand(CLI::App& app) {
                     "Play at the recorded pace, threaded, and drop frames that come too early");
   command->add_option("--true-masks", settings.true_masks,
                       "Folder of true instance masks (PNG): culling is measured against them");
+  command->add_option("--debug-video", settings.debug_video,
+                      "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
   command->add_option("--start", settings.range.first, "First frame")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--frames", settings.range.max_count, "Frames at most")

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "debug_video.h"
 #include "ofm/base/error.h"
 #include "ofm/io/camera_file.h"
 #include "ofm/io/prefetching_source.h"
@@ -79,12 +80,17 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (!settings.true_masks.empty()) meter.emplace(settings.true_masks, settings.options.features);
   PrepareOutputFolder(settings.output);
 
+  std::optional<DebugVideo> video;
+  if (!settings.debug_video.empty()) {
+    video.emplace(settings.debug_video, segmenter->class_names());
+  }
   Slam slam(camera, settings.options, std::move(segmenter));
   RunReport report;
   {
     ProgressBar progress(source.frames->size());
     RunContext context;
     if (!settings.quiet) context.observers.push_back(&progress);
+    if (video) context.observers.push_back(&*video);
     if (meter) context.observers.push_back(&*meter);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime

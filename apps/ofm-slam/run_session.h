@@ -15,8 +15,9 @@ namespace ofm {
 
 struct RunSettings {
   std::filesystem::path sequence, output;
-  std::string camera = "auto";       ///< preset, file or "auto"
-  std::filesystem::path true_masks;  ///< instance PNGs to measure culling against; may be empty
+  std::string camera = "auto";        ///< preset, file or "auto"
+  std::filesystem::path true_masks;   ///< instance PNGs to measure culling against; may be empty
+  std::filesystem::path debug_video;  ///< .avi or folder; may be empty
   FrameRange range;
   bool threaded = false;
   bool realtime = false;  ///< at the recorded pace; frames that come too early are dropped

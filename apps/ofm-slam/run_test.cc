@@ -41,6 +41,40 @@ TEST(Run, WritesAllFilesAndPrintsASummary) {
   EXPECT_LT(summary["trajectory_live"]["ate"]["translation_m"]["rmse"], 0.03);
 }
 
+TEST(Run, MeasuresCullingAgainstTrueMasks) {
+  const TestRecording recording(8);
+  const std::string masks = (recording.folder() / "mask").string();
+  const ProgramResult result = recording.Run("--segmenter masks --true-masks " + masks);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("of the features on true actors"));
+  const json culling = Summary(recording.output())["culling"];
+  EXPECT_GT(culling["actor_features"], 0);
+  EXPECT_GT(culling["static_features"], culling["actor_features"]);
+  EXPECT_LT(culling["actor_share_in_pose"], 0.03);
+  EXPECT_GT(culling["static_share_kept"], 0.7);
+}
+
+TEST(Run, TrueMasksThatAreNotThereAreAnErrorBeforeTheRun) {
+  const TestRecording recording(3);
+  const ProgramResult result = recording.Run("--true-masks /nowhere/masks");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/nowhere/masks"));
+}
+
+TEST(Run, DrawsDebugViewsAsFramesAndAsAVideo) {
+  const TestRecording recording(4);
+  const auto frames = recording.root() / "frames", video = recording.root() / "video.avi";
+  ASSERT_EQ(recording.Run("--segmenter masks --debug-video " + frames.string()).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(frames / "000000.jpg"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(frames / "000003.jpg"));
+  ASSERT_EQ(recording.Run("--segmenter masks --debug-video " + video.string()).exit_code, 0);
+  EXPECT_GT(std::filesystem::file_size(video), 4000U);
+  const ProgramResult other =
+      recording.Run("--debug-video " + (recording.root() / "v.mov").string());
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("name an .avi file, or a folder"));
+}
+
 TEST(Run, ItsTrajectoryCanBeEvaluated) {
   const TestRecording recording(10);
   ASSERT_EQ(recording.Run("--segmenter masks").exit_code, 0);

@@ -17,12 +17,19 @@ struct FrameMotion {
   RigidTransform current_from_last;
 };
 
+/// Where a point was and is, for people to look at.
+struct FlowVector {
+  Eigen::Vector2f last_px, current_px;
+  bool is_moving = false;  ///< against the camera's motion
+};
+
 /// Where a frame must not be trusted, and the points that told so.
 struct DynamicMask {
   cv::Mat mask;      ///< CV_8UC1 of the image's size, 255 = dynamic
   cv::Mat unmapped;  ///< CV_8UC1, 255 = keep out of dense maps: also what may move; empty = mask
   std::vector<Eigen::Vector2f> dynamic_points;  ///< [px] found moving by optical flow
   cv::Mat static_probability;                   ///< CV_8UC1, 255 = surely; empty = not told
+  std::vector<FlowVector> flow;                 ///< of some points
   std::optional<FrameMotion> camera_motion;     ///< where the flow tells it
   double masked_share = 0;                      ///< of the image's pixels, 0 to 1
 };

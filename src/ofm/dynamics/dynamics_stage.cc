@@ -44,7 +44,7 @@ DynamicMask DynamicsStage::Process(const DynamicsInput& input) {
   if (options_.mode == DynamicsMode::kOff) return result;
 
   AddInstances(input.segmentation, result.mask);
-  result.dynamic_points = FindMovingPoints(input.flow, result.mask);
+  FindMovingPoints(input.flow, result);
   AddDiscs(result.dynamic_points, options_.exclusion_radius_px, result.mask);
   result.masked_share =
       static_cast<double>(cv::countNonZero(result.mask)) / static_cast<double>(result.mask.total());
@@ -59,8 +59,8 @@ void DynamicsStage::AddInstances(const Segmentation& segmentation, cv::Mat& mask
   }
 }
 
-std::vector<Eigen::Vector2f> DynamicsStage::FindMovingPoints(const FlowResult& flow,
-                                                             const cv::Mat& instance_mask) const {
+/// Off their epipolar lines; off result.mask the static scene is presumed.
+void DynamicsStage::FindMovingPoints(const FlowResult& flow, DynamicMask& result) const {
   PointPairs tracked, candidates;
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < flow.size(); ++i) {
@@ -68,18 +68,19 @@ std::vector<Eigen::Vector2f> DynamicsStage::FindMovingPoints(const FlowResult& f
     indices.push_back(i);
     tracked.Add(camera_.Undistort(flow.previous[i].cast<double>()),
                 camera_.Undistort(flow.current[i].cast<double>()));
-    if (IsSet(instance_mask, flow.current[i])) continue;
+    if (IsSet(result.mask, flow.current[i])) continue;
     candidates.Add(tracked.first.back(), tracked.second.back());
   }
   const auto fit = FitFundamental(candidates, options_.epipolar);
-  std::vector<Eigen::Vector2f> moving;
-  if (!fit) return moving;
+  if (!fit) return;
   for (std::size_t k = 0; k < tracked.size(); ++k) {
     const double distance =
         EpipolarDistance(fit->second_from_first, tracked.first[k], tracked.second[k]);
-    if (distance > options_.epipolar.threshold_px) moving.push_back(flow.current[indices[k]]);
+    const std::size_t i = indices[k];
+    const bool is_moving = distance > options_.epipolar.threshold_px;
+    result.flow.push_back({flow.previous[i], flow.current[i], is_moving});
+    if (is_moving) result.dynamic_points.push_back(flow.current[i]);
   }
-  return moving;
 }
 
 }  // namespace ofm

@@ -39,8 +39,7 @@ class DynamicsStage {
 
  private:
   void AddInstances(const Segmentation& segmentation, cv::Mat& mask) const;
-  std::vector<Eigen::Vector2f> FindMovingPoints(const FlowResult& flow,
-                                                const cv::Mat& instance_mask) const;
+  void FindMovingPoints(const FlowResult& flow, DynamicMask& result) const;
 
   DynamicsOptions options_;
   PinholeCamera camera_;

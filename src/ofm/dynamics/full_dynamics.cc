@@ -19,6 +19,25 @@ cv::Mat StaticProbability(const cv::Mat& log_odds_of_moving) {
   return probability;
 }
 
+/// Of every fourth cell in both directions that has texture.
+std::vector<FlowVector> DrawnFlow(const MotionVerdict& verdict, const MotionLattice& lattice,
+                                  const PinholeCamera& camera, const cv::Mat& texture) {
+  constexpr int kStep = 4;
+  std::vector<FlowVector> vectors;
+  for (int y = 0; y < verdict.flow.rows; y += kStep) {
+    for (int x = 0; x < verdict.flow.cols; x += kStep) {
+      if (texture.at<std::uint8_t>(y, x) == 0) continue;
+      const cv::Vec2f flow = verdict.flow.at<cv::Vec2f>(y, x);
+      const auto pixel_at = [&](double column, double row) {
+        return camera.Distort(lattice.cells().IdealPx(column, row)).cast<float>().eval();
+      };
+      vectors.push_back(
+          {pixel_at(x + flow[0], y + flow[1]), pixel_at(x, y), verdict.belief.at<float>(y, x) > 0});
+    }
+  }
+  return vectors;
+}
+
 double ShareOf(const cv::Mat& mask) {
   return static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
 }
@@ -27,7 +46,7 @@ double ShareOf(const cv::Mat& mask) {
 
 FullDynamics::FullDynamics(const DynamicsOptions& options, const PinholeCamera& camera,
                            const ClassPolicies& policies)
-    : options_(options), policies_(policies), judge_(camera, options.motion) {}
+    : options_(options), camera_(camera), policies_(policies), judge_(camera, options.motion) {}
 
 DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation) {
   const std::int64_t last_stamp_ns = state_.last ? state_.last->stamp_ns : frame.stamp_ns;
@@ -48,6 +67,7 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
     result.camera_motion =
         FrameMotion{last_stamp_ns, verdict.camera_motion.last_from_current.Inverse()};
   }
+  result.flow = DrawnFlow(verdict, judge_.lattice(), camera_, lattice_frame.texture);
   result.masked_share = ShareOf(result.mask);
   return result;
 }

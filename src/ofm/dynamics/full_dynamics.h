@@ -31,6 +31,7 @@ class FullDynamics {
   double MotionOf(const InstanceTrack& track) const;
 
   DynamicsOptions options_;
+  PinholeCamera camera_;
   ClassPolicies policies_;
   MotionJudge judge_;
   MotionState state_;
