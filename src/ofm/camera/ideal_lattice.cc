@@ -22,16 +22,20 @@ struct Bounds {
 /// a strong lens model may run away at its corners.
 Bounds IdealBounds(const PinholeCamera& camera) {
   Bounds bounds;
+  const auto add = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Vector2d ideal_px = camera.Undistort(pixel);
+    bounds.Add(ideal_px.allFinite() ? ideal_px : pixel);
+  };
   constexpr int kStep = 8;
   for (int x = 0; x < camera.width + kStep; x += kStep) {
     const double column = std::min(x, camera.width - 1);
-    bounds.Add(camera.Undistort({column, 0.0}));
-    bounds.Add(camera.Undistort({column, camera.height - 1.0}));
+    add({column, 0.0});
+    add({column, camera.height - 1.0});
   }
   for (int y = 0; y < camera.height + kStep; y += kStep) {
     const double row = std::min(y, camera.height - 1);
-    bounds.Add(camera.Undistort({0.0, row}));
-    bounds.Add(camera.Undistort({camera.width - 1.0, row}));
+    add({0.0, row});
+    add({camera.width - 1.0, row});
   }
   const Eigen::Vector2d size(camera.width, camera.height);
   bounds.low = bounds.low.cwiseMax(-size / 4);

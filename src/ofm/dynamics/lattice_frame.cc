@@ -1,6 +1,10 @@
 #include "ofm/dynamics/lattice_frame.h"
 
+#include <fmt/format.h>
+
 #include <opencv2/imgproc.hpp>
+
+#include "ofm/base/error.h"
 
 namespace ofm {
 namespace {
@@ -20,7 +24,11 @@ cv::Mat FindTexture(const cv::Mat& gray, cv::Size cells, int min_texture) {
 }  // namespace
 
 MotionLattice::MotionLattice(const PinholeCamera& camera, const MotionOptions& options)
-    : options_(options), cells_(camera, options.cell_px), gray_(camera, options.cell_px / 2, 2) {}
+    : options_(options), cells_(camera, options.cell_px), gray_(camera, options.cell_px / 2, 2) {
+  if (options.cell_px % 2 != 0) {
+    throw Error(fmt::format("dynamics.motion.cell_px: must be even, not {}", options.cell_px));
+  }
+}
 
 LatticeFrame MotionLattice::MakeFrame(const RgbdFrame& frame) const {
   LatticeFrame result;

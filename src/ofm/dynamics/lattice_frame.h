@@ -21,6 +21,7 @@ struct LatticeFrame {
 /// Makes lattice frames and knows their geometry. Immutable.
 class MotionLattice {
  public:
+  /// Throws Error for an odd options.cell_px.
   MotionLattice(const PinholeCamera& camera, const MotionOptions& options);
 
   LatticeFrame MakeFrame(const RgbdFrame& frame) const;

@@ -107,6 +107,24 @@ TEST(FrameFeatures, ReadsNoDepthBeyondTheBorder) {
   EXPECT_EQ(frame->depth_m, (std::vector<float>{3, 4}));
 }
 
+TEST(FrameFeatures, ReadsStaticProbabilityAtTheNearestPixel) {
+  cv::Mat probability(480, 640, CV_8UC1, cv::Scalar(255));
+  probability.at<std::uint8_t>(41, 30) = 51;
+  probability.at<std::uint8_t>(479, 639) = 0;
+  const auto frame = MakeFrameFeatures(FeaturesAt({{30.4F, 40.6F}, {30, 40}, {639.9F, 480}}),
+                                       PlainDepth(2), {}, probability);
+  ASSERT_EQ(frame->static_probability.size(), 3U);
+  EXPECT_FLOAT_EQ(frame->StaticProbability(0), 0.2F);
+  EXPECT_EQ(frame->StaticProbability(1), 1);
+  EXPECT_EQ(frame->StaticProbability(2), 0) << "the nearest pixel of the image";
+}
+
+TEST(FrameFeatures, EverythingIsStaticWhereNothingElseIsTold) {
+  const auto frame = MakeFrameFeatures(FeaturesAt({{10, 20}, {30, 40}}), PlainDepth(2), {});
+  EXPECT_TRUE(frame->static_probability.empty());
+  EXPECT_EQ(frame->StaticProbability(1), 1);
+}
+
 TEST(FrameFeatures, GridIsOverIdealPixels) {
   const PinholeCamera camera = *FindCameraPreset("tum-fr1");
   const Eigen::Vector2d ideal(40, 40);
@@ -169,6 +187,13 @@ TEST(AlignDepthInTime, KeepsWhatItHasWhereTheDepthImageTellsNothing) {
 TEST(AlignDepthInTime, MakesNoDepthWhereThereWasNone) {
   const auto frame = MakeFrameFeatures(FeaturesAt({{320, 240}}), PlainDepth(0), {});
   EXPECT_EQ(AlignDepthInTime(*frame, PlainDepth(2), {}, {})->depth_m[0], 0);
+}
+
+TEST(AlignDepthInTime, KeepsTheStaticProbability) {
+  const cv::Mat half(480, 640, CV_8UC1, cv::Scalar(102));
+  const auto frame = MakeFrameFeatures(FeaturesAt({{100, 200}}), PlainDepth(2), {}, half);
+  const RigidTransform forward(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -0.1));
+  EXPECT_FLOAT_EQ(AlignDepthInTime(*frame, PlainDepth(2), forward, {})->StaticProbability(0), 0.4F);
 }
 
 TEST(PointInCamera, IsThePointThatTheFeatureShows) {

@@ -146,5 +146,64 @@ TEST(MapCountSightings, IgnoresLandmarksThatAreGone) {
   EXPECT_EQ(map.landmarks().size(), 0U);
 }
 
+/// A keyframe of four features of these static probabilities.
+Keyframe KeyframeOfProbabilities(const std::vector<float>& probabilities) {
+  FrameFeatures features = *MakeTestFeatures(std::vector<test::TestFeature>(probabilities.size()));
+  features.static_probability = probabilities;
+  return MakeTestKeyframe(std::make_shared<const FrameFeatures>(features));
+}
+
+TEST(MapStaticProbability, BeginsAsThatOfTheFeature) {
+  Map map(test::TestScales());
+  map.AddKeyframe(KeyframeOfProbabilities({1, 0.25F}));
+  map.AddKeyframe(MakePlainKeyframe(1));
+  EXPECT_EQ(map.GetLandmark(map.AddLandmark(kPoint, KeyframeId(0), 1)).static_probability, 0.25F);
+  EXPECT_EQ(map.GetLandmark(map.AddLandmark(kPoint, KeyframeId(1), 0)).static_probability, 1)
+      << "nothing else is told";
+}
+
+TEST(MapStaticProbability, MovesTowardsWhatIsSeen) {
+  Map map = MakeMap(1);
+  const LandmarkId id = map.AddLandmark(kPoint, KeyframeId(0), 0);
+  const auto probability = [&] { return map.GetLandmark(id).static_probability; };
+  float before = probability();
+  for (int i = 0; i < 12; ++i) {
+    map.UpdateStaticProbability(id, 0);
+    EXPECT_LT(probability(), before);
+    before = probability();
+  }
+  EXPECT_LT(probability(), 0.3);
+  EXPECT_GT(probability(), 0.2) << "no single frame decides";
+  for (int i = 0; i < 40; ++i) map.UpdateStaticProbability(id, 0.8F);
+  EXPECT_NEAR(probability(), 0.8, 0.02);
+  EXPECT_LE(probability(), 0.8F) << "never beyond what is seen";
+}
+
+TEST(MapStaticProbability, IsUpdatedByAReplacedNameToo) {
+  Map map = MakeMap(1);
+  const LandmarkId old_name = map.AddLandmark(kPoint, KeyframeId(0), 0);
+  const LandmarkId id = map.AddLandmark(kPoint, KeyframeId(0), 1);
+  map.Fuse(old_name, id);
+  map.UpdateStaticProbability(old_name, 0);
+  EXPECT_LT(map.GetLandmark(id).static_probability, 1);
+}
+
+TEST(MapStaticProbability, LandmarksThatAreGoneAreIgnored) {
+  Map map = MakeMap(1);
+  const LandmarkId gone = map.AddLandmark(kPoint, KeyframeId(0), 0);
+  map.RemoveLandmark(gone);
+  EXPECT_NO_THROW(map.UpdateStaticProbability(gone, 0));
+  EXPECT_NO_THROW(map.UpdateStaticProbability(LandmarkId(), 0));
+  EXPECT_EQ(map.landmarks().size(), 0U);
+}
+
+TEST(MapStaticProbability, SnapshotsKeepWhatTheyHad) {
+  Map map = MakeMap(1);
+  const LandmarkId id = map.AddLandmark(kPoint, KeyframeId(0), 0);
+  const auto snapshot = map.Snapshot();
+  map.UpdateStaticProbability(id, 0);
+  EXPECT_EQ(snapshot->landmarks.Find(id)->static_probability, 1);
+}
+
 }  // namespace
 }  // namespace ofm

@@ -135,5 +135,61 @@ TEST_F(MapAdjustment, StoppedOneChangesNothing) {
   EXPECT_EQ(made_.PoseError_m(), before);
 }
 
+/// A map of which every other landmark was a pixel and a half to the right in keyframe 3.
+TrueMap MapWithMovingLandmarks() {
+  TrueMap made;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const MadeFrame frame = made.world.Frame(4 * i);
+    made.Add(i != 3 ? frame : test::Changed(frame, [&](FrameFeatures& features) {
+      for (std::size_t k = 0; k < features.size(); ++k) {
+        if (frame.shown[k].value % 2 == 0) features.ideal_px[k].x() += 1.5F;
+      }
+    }));
+  }
+  made.RefreshAll();
+  return made;
+}
+
+TEST(MapAdjustmentWeights, LandmarksThatMayMoveCountLess) {
+  TrueMap plain = MapWithMovingLandmarks(), weighted = MapWithMovingLandmarks();
+  for (const auto& [shown, id] : weighted.association.names()) {
+    for (int i = 0; i < 40 && shown.value % 2 == 0; ++i) {
+      weighted.map.UpdateStaticProbability(id, 0);
+    }
+  }
+  const auto error_m = [](TrueMap& made) {
+    AdjustWholeMap(made.map, made.world.model(), {});
+    return test::DistanceOfCentres_m(made.map.GetKeyframe(KeyframeId(3)).camera_from_world,
+                                     made.truth[3]);
+  };
+  const double without = error_m(plain), with = error_m(weighted);
+  EXPECT_GT(without, 5e-4);
+  EXPECT_LT(with, 0.3 * without);
+}
+
+TEST(MapAdjustmentWeights, FeaturesThatMayMoveCountLess) {
+  const auto error_m = [](float probability) {
+    TrueMap made;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      const MadeFrame frame = made.world.Frame(4 * i);
+      made.Add(i != 3 ? frame : test::Changed(frame, [&](FrameFeatures& features) {
+        features.static_probability.assign(features.size(), 1.0F);
+        for (std::size_t k = 0; k < features.size(); ++k) {
+          if (frame.shown[k].value % 2 != 0) continue;
+          features.ideal_px[k].x() += 1.5F;
+          features.static_probability[k] = probability;
+        }
+      }));
+    }
+    made.RefreshAll();
+    AdjustWholeMap(made.map, made.world.model(), {});
+    return test::DistanceOfCentres_m(made.map.GetKeyframe(KeyframeId(3)).camera_from_world,
+                                     made.truth[3]);
+  };
+  const double without = error_m(1), with = error_m(0.01F);
+  EXPECT_GT(without, 5e-4);
+  EXPECT_LT(with, 0.3 * without);
+}
+
 }  // namespace
 }  // namespace ofm

@@ -228,5 +228,52 @@ TEST(Mapper, AdjustsUnlessAskedToStop) {
   }
 }
 
+TEST(Mapper, LandmarksThatAreSeenMovingGo) {
+  TrueMapping mapping(KeepKeyframes());
+  mapping.Insert(0);
+  const LandmarkId moving(3), doubtful(4), still(5), unseen(6);
+  const auto sight = [](LandmarkId id, std::optional<float> probability, std::size_t times) {
+    return std::vector<Sighting>(times, Sighting{id, false, probability});
+  };
+  std::vector<Sighting> sightings = sight(moving, 0.0F, 20);
+  for (const auto& more : {sight(doubtful, 0.0F, 5), sight(still, 1.0F, 20),
+                           sight(unseen, std::nullopt, 20), sight(LandmarkId(99999), 0.0F, 20)}) {
+    sightings.insert(sightings.end(), more.begin(), more.end());
+  }
+  mapping.Insert(1, sightings);
+  EXPECT_EQ(mapping.map().FindLandmark(moving), nullptr);
+  ASSERT_NE(mapping.map().FindLandmark(doubtful), nullptr);
+  EXPECT_LT(mapping.map().GetLandmark(doubtful).static_probability, 0.7);
+  EXPECT_EQ(mapping.map().GetLandmark(still).static_probability, 1);
+  EXPECT_EQ(mapping.map().GetLandmark(unseen).static_probability, 1);
+  EXPECT_EQ(FindProblem(mapping.map()), "");
+}
+
+TEST(Mapper, ProbabilityUnderWhichLandmarksGoIsThatOfTheOptions) {
+  for (const double least : {0.0, 0.9}) {
+    MappingOptions options = KeepKeyframes();
+    options.min_static_probability = least;
+    TrueMapping mapping(options);
+    mapping.Insert(0);
+    mapping.Insert(1, std::vector<Sighting>(3, Sighting{LandmarkId(3), false, 0.0F}));
+    EXPECT_EQ(mapping.map().FindLandmark(LandmarkId(3)) == nullptr, least > 0);
+  }
+}
+
+/// A landmark that tracking still names in the new keyframe is gone from it too.
+TEST(Mapper, KeyframeDoesNotNameALandmarkThatJustWent) {
+  TrueMapping mapping(KeepKeyframes());
+  mapping.Insert(0);
+  const KeyframeCandidate candidate = mapping.Candidate(mapping.world().Frame(1));
+  LandmarkId named;
+  for (const LandmarkId id : candidate.landmarks) named = id.valid() ? id : named;
+  ASSERT_TRUE(named.valid());
+  const KeyframeId id =
+      mapping.mapper().Insert(candidate, std::vector<Sighting>(30, Sighting{named, true, 0.0F}));
+  EXPECT_EQ(mapping.map().FindLandmark(named), nullptr);
+  for (const LandmarkId seen : mapping.map().GetKeyframe(id).landmarks) EXPECT_NE(seen, named);
+  EXPECT_EQ(FindProblem(mapping.map()), "");
+}
+
 }  // namespace
 }  // namespace ofm

@@ -96,5 +96,46 @@ TEST_F(FrontEndTest, KnowsTheSegmentersClasses) {
   EXPECT_THAT(MakeFrontEnd(DynamicsMode::kPaper).class_names(), testing::ElementsAre("person"));
 }
 
+TEST_F(FrontEndTest, FullCullingTellsTheCamerasMotionAndHowStaticFeaturesAre) {
+  FrontEnd front_end = MakeFrontEnd(DynamicsMode::kFull);
+  for (const RgbdFrame& frame : recording_.images) {
+    const PreparedFrame prepared = front_end.Process(frame, times_);
+    EXPECT_LT(CountOnPeople(prepared), static_cast<int>(prepared.features->size()) / 30);
+    EXPECT_GT(prepared.features->size(), 50U);
+    EXPECT_EQ(prepared.features->static_probability.size(), prepared.features->size());
+    EXPECT_EQ(prepared.dynamic.camera_motion.has_value(), frame.id != FrameId(0));
+  }
+  EXPECT_EQ(times_.stages().count("optical_flow"), 0U) << "that is the paper's";
+}
+
+TEST_F(FrontEndTest, FeaturesHaveTheStaticProbabilityOfTheirPixel) {
+  FrontEnd front_end = MakeFrontEnd(DynamicsMode::kFull);
+  front_end.Process(recording_.images[0], times_);
+  const PreparedFrame prepared = front_end.Process(recording_.images[1], times_);
+  for (std::size_t i = 0; i < prepared.features->size(); ++i) {
+    const Eigen::Vector2f& pixel = prepared.features->keypoints[i].pixel;
+    const cv::Point place(std::lround(pixel.x()), std::lround(pixel.y()));
+    EXPECT_EQ(prepared.features->StaticProbability(static_cast<int>(i)),
+              prepared.dynamic.static_probability.at<std::uint8_t>(place) / 255.0F);
+  }
+}
+
+TEST_F(FrontEndTest, TakesMoreFeaturesWhereMuchIsMasked) {
+  const auto count = [&](double crowded_share) {
+    SlamOptions options = test::QuickOptions();
+    options.features.count = 150;
+    options.dynamics.mode = DynamicsMode::kPaper;
+    options.dynamics.crowded_share = crowded_share;
+    options.dynamics.crowded_features = 2;
+    FrontEnd front_end(recording_.sequence.camera(), options,
+                       std::make_unique<test::TruthSegmenter>(recording_.sequence));
+    const PreparedFrame prepared = front_end.Process(recording_.images[0], times_);
+    EXPECT_GT(prepared.dynamic.masked_share, 0.01);
+    EXPECT_LT(prepared.dynamic.masked_share, 0.95);
+    return prepared.features->size();
+  };
+  EXPECT_GT(count(0.01), 1.6 * static_cast<double>(count(0.95)));
+}
+
 }  // namespace
 }  // namespace ofm

@@ -45,5 +45,12 @@ TEST(MeasurementModel, FeatureWithoutDepthStaysWithout) {
   EXPECT_EQ(MakeModel().Observe(*frame, 0).depth_m, 0);
 }
 
+TEST(MeasurementModel, WeightIsTheStaticProbability) {
+  FrameFeatures frame = *test::MakeTestFeatures({{{1, 2}, 3, 0, {}, 0}, {{5, 6}, 3, 0, {}, 0}});
+  frame.static_probability = {0.25F, 0.75F};
+  EXPECT_EQ(MakeModel().Observe(frame, 0).weight, 0.25);
+  EXPECT_EQ(MakeModel().Observe(frame, 1).weight, 0.75);
+}
+
 }  // namespace
 }  // namespace ofm

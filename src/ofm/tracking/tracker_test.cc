@@ -4,55 +4,17 @@
 
 #include <set>
 
-#include "ofm/tracking/test_world.h"
+#include "ofm/tracking/test_run.h"
 
 namespace ofm {
 namespace {
 
 using test::DefaultWorld;
+using test::ExpectPose;
 using test::FeatureWorld;
 using test::FeatureWorldOptions;
 using test::MadeFrame;
-
-/// A tracker, and a map that takes every keyframe that it proposes at once.
-class TrackingRun {
- public:
-  explicit TrackingRun(const FeatureWorldOptions& world = DefaultWorld(),
-                       const TrackingOptions& options = {})
-      : world_(world), tracker_(world_.model(), options, 1) {}
-
-  TrackingResult Step(const MadeFrame& frame) {
-    TrackingResult result = tracker_.Process(MakeInput(frame, map_.Snapshot()));
-    if (result.status == TrackingStatus::kInitialized) {
-      first_from_world_ = frame.camera_from_world;
-    }
-    if (result.keyframe) {
-      test::AddWithDepth(map_, world_.model(), frame, result.keyframe->camera_from_world,
-                         result.keyframe->landmarks);
-    }
-    return result;
-  }
-  TrackingResult Step(std::uint32_t frame_id) { return Step(world_.Frame(frame_id)); }
-
-  /// camera_from_world in the map's world, that of the first camera.
-  RigidTransform Truth(const MadeFrame& frame) const {
-    return frame.camera_from_world * first_from_world_.Inverse();
-  }
-  const FeatureWorld& world() const { return world_; }
-  Map& map() { return map_; }
-
- private:
-  FeatureWorld world_;
-  Map map_{test::TestScales()};
-  Tracker tracker_;
-  RigidTransform first_from_world_;
-};
-
-void ExpectPose(const RigidTransform& pose, const RigidTransform& truth, double metres,
-                double degrees) {
-  EXPECT_LE(test::DistanceOfCentres_m(pose, truth), metres);
-  EXPECT_LE(test::AngleBetween_deg(pose, truth), degrees);
-}
+using test::TrackingRun;
 
 FeatureWorldOptions WorldOf(CameraPathKind kind) {
   FeatureWorldOptions options = DefaultWorld();
