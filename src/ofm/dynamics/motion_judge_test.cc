@@ -78,8 +78,8 @@ TEST_F(MotionJudgeTest, FollowsTheCamera) {
   const RigidTransform truth =
       sequence_.WorldFromCamera(last).Inverse() * sequence_.WorldFromCamera(FrameId(0));
   const RigidTransform error = state_.camera_from_start * truth.Inverse();
-  EXPECT_LT(error.translation().norm(), 0.02);
-  EXPECT_LT(error.RotationAngle() * 180 / M_PI, 0.5);
+  EXPECT_LT(error.translation().norm(), 0.06) << "of a way of 0.3 m, by flow alone";
+  EXPECT_LT(error.RotationAngle() * 180 / M_PI, 1.1);
   const double elapsed_s = sequence_.SceneTime(last) - sequence_.SceneTime(FrameId(kFrames - 2));
   const Vector6d velocity = LogSe3(test::LastFromCurrent(sequence_, last).Inverse()) / elapsed_s;
   EXPECT_LT((state_.velocity - velocity).norm(), 0.15);
