@@ -23,6 +23,7 @@ class CullingMeterTest : public testing::Test {
     for (const int x : {60, 180, 220, 260}) {
       cv::rectangle(prepared_.frame.gray, {x, 50, 20, 20}, 220, cv::FILLED);
     }
+    cv::cvtColor(prepared_.frame.gray, prepared_.frame.color, cv::COLOR_GRAY2BGR);
     prepared_.dynamic.mask = cv::Mat::zeros(prepared_.frame.gray.size(), CV_8UC1);
     prepared_.features = std::make_shared<const FrameFeatures>();
     WriteTruth({0, 0, 160, 120});
