@@ -8,7 +8,7 @@ namespace ofm {
 /// The camera's own motion between two frames, by flow on what is believed static.
 struct CameraMotionOptions {
   int block_cells = 4;          ///< one point is taken of each block of this side
-  double pixel_sigma = 0.7;     ///< of the flow [px]
+  double pixel_sigma = 0.5;     ///< of the flow [px]
   double doubtful_share = 0.5;  ///< fewer inliers: RANSAC is asked as well
   int ransac_iterations = 100;
   int min_points = 30;  ///< fewer give no motion: constant velocity is assumed
