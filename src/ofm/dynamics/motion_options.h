@@ -10,6 +10,8 @@ struct CameraMotionOptions {
   int block_cells = 4;          ///< one point is taken of each block of this side
   double pixel_sigma = 0.5;     ///< of the flow [px]
   double doubtful_share = 0.5;  ///< fewer inliers: RANSAC is asked as well
+  double blurred_share = 0.25;  ///< fewer inliers still: flow is taken for blurred
+  double blurred_pixel_sigma = 1.5;  ///< of blurred flow [px]; no better than that, no motion
   int ransac_iterations = 100;
   int min_points = 30;  ///< fewer give no motion: constant velocity is assumed
 
@@ -20,6 +22,11 @@ struct CameraMotionOptions {
     visit("pixel_sigma", self.pixel_sigma, "standard deviation of the flow [px]", Range{0.05, 20});
     visit("doubtful_share", self.doubtful_share, "a smaller share of inliers: RANSAC is asked too",
           Range{0, 1});
+    visit("blurred_share", self.blurred_share,
+          "a smaller share still: flow is taken for blurred; and then: no motion is believed",
+          Range{0, 1});
+    visit("blurred_pixel_sigma", self.blurred_pixel_sigma,
+          "standard deviation of the flow in blurred images [px]", Range{0.05, 20});
     visit("ransac_iterations", self.ransac_iterations, "of RANSAC, at most", Range{1, 10000});
     visit("min_points", self.min_points, "fewer points: constant velocity is assumed",
           Range{6, 10000});
