@@ -12,7 +12,7 @@ namespace ofm {
 
 struct Keyframe {
   KeyframeId id;
-  FrameId frame_id;
+  FrameId frame_id;  ///< of the run that made it; invalid in a map that was loaded
   std::int64_t stamp_ns = 0;
   RigidTransform camera_from_world;
   std::shared_ptr<const FrameFeatures> features;

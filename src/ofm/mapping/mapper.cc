@@ -8,9 +8,23 @@
 #include "ofm/mapping/map_adjustment.h"
 
 namespace ofm {
+namespace {
 
-Mapper::Mapper(const MeasurementModel& model, const MappingOptions& options)
-    : model_(model), options_(options), map_(model.scales) {}
+/// For as many keyframes after the one that made it, a landmark can be culled.
+constexpr std::uint32_t kTrialKeyframes = 3;
+
+}  // namespace
+
+Mapper::Mapper(const MeasurementModel& model, const MappingOptions& options,
+               const MapSnapshot& start)
+    : model_(model), options_(options), map_(model.scales, start) {
+  // The landmarks of the newest keyframes are still on trial.
+  map_.landmarks().ForEach([&](const Landmark& landmark) {
+    if (landmark.first_keyframe.value + kTrialKeyframes > map_.latest_keyframe().value) {
+      young_.push_back({landmark.id, landmark.first_keyframe});
+    }
+  });
+}
 
 KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
                           const std::vector<Sighting>& sightings) {
@@ -86,7 +100,7 @@ void Mapper::CullYoung(KeyframeId current) {
       map_.RemoveLandmark(young.id);
       return true;
     }
-    return age >= 3;
+    return age >= kTrialKeyframes;
   });
 }
 
