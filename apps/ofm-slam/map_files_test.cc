@@ -26,9 +26,7 @@ class MapFiles : public testing::Test {
   }
   static void TearDownTestSuite() { recording_.reset(); }
 
-  static std::filesystem::path Folder(const std::string& name) {
-    return recording_->root() / name;
-  }
+  static std::filesystem::path Folder(const std::string& name) { return recording_->root() / name; }
   static std::string Map() { return Folder("room.ofm").string(); }
   static std::string Arguments(const std::string& output, const std::string& more) {
     return "run " + recording_->folder().string() + " --output " + Folder(output).string() +
@@ -49,8 +47,7 @@ std::optional<TestRecording> MapFiles::recording_;
 
 TEST_F(MapFiles, LocaliseOnlyFollowsTheCameraAndChangesNothing) {
   const std::string before = ReadFile(Map());
-  const ProgramResult result =
-      Run("later", "--start 10 --load-map " + Map() + " --localize-only");
+  const ProgramResult result = Run("later", "--start 10 --load-map " + Map() + " --localize-only");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("6 tracked of 6"), HasSubstr("loaded map  " + Map()),
                                 HasSubstr("in the loaded map's world")));
@@ -72,9 +69,9 @@ TEST_F(MapFiles, EvaluateMeasuresInTheMapsWorld) {
     const ProgramResult result = RunProgram(arguments + with);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json errors = json::parse(ReadFile(Folder("errors.json")));
-    EXPECT_NEAR(
-        errors["ate"]["translation_m"]["rmse"].get<double>(),
-        Summary("again")["trajectory_in_map"]["ate"]["translation_m"]["rmse"].get<double>(), 1e-6);
+    EXPECT_NEAR(errors["ate"]["translation_m"]["rmse"].get<double>(),
+                Summary("again")["trajectory_in_map"]["ate"]["translation_m"]["rmse"].get<double>(),
+                1e-6);
   }
   const ProgramResult wrong = RunProgram(arguments + Map() + "x");
   EXPECT_EQ(wrong.exit_code, 1);
@@ -102,19 +99,19 @@ TEST_F(MapFiles, ACameraThatNeverFindsItsPlaceIsSaidNotTo) {
       Run("nowhere", "--start 10 --frames 2 --load-map " + Map() +
                          " --localize-only --set tracking.min_relocalization_inliers=1000");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("0 tracked of 2"),
-                                HasSubstr("its place was never recognised")));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("0 tracked of 2"), HasSubstr("its place was never recognised")));
 }
 
 TEST_F(MapFiles, InfoTellsWhatIsInside) {
   const ProgramResult result = RunProgram("map info " + Map());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json counts = Summary("first")["counts"];
-  EXPECT_THAT(result.out,
-              AllOf(HasSubstr("version 1"),
-                    HasSubstr("keyframes  " + counts["keyframes"].dump() + "\n"),
-                    HasSubstr("landmarks  " + counts["landmarks"].dump() + "\n"),
-                    HasSubstr("240 x 180 px"), HasSubstr("no distortion"), HasSubstr("8 levels")));
+  EXPECT_THAT(
+      result.out,
+      AllOf(HasSubstr("version 1"), HasSubstr("keyframes  " + counts["keyframes"].dump() + "\n"),
+            HasSubstr("landmarks  " + counts["landmarks"].dump() + "\n"), HasSubstr("240 x 180 px"),
+            HasSubstr("no distortion"), HasSubstr("8 levels")));
 }
 
 TEST_F(MapFiles, ADamagedFileIsOneErrorLineBeforeAnythingIsWritten) {

@@ -178,7 +178,9 @@ std::string FormatSummary(const RunReport& report) {
   const RunDescription& description = report.description;
   if (!description.loaded_map.empty()) {
     text += fmt::format("loaded map  {}{}\n", description.loaded_map,
-                        counts.frames_tracked > 0 ? "" : ": its place was never recognised");
+                        counts.frames_tracked > 0
+                            ? ""
+                            : ": its place was never recognised, nothing was added to it");
   }
   if (!description.saved_map.empty()) {
     text +=

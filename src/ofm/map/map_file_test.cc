@@ -6,6 +6,7 @@
 
 #include <csignal>
 
+#include "ofm/features/static_words.h"
 #include "ofm/io/read_file.h"
 #include "ofm/io/sha256.h"
 #include "ofm/io/sqlite_database.h"
@@ -81,7 +82,9 @@ TEST_F(MapFile, GivesBackTheMapToTheLastBit) {
   const StoredMap stored = LoadMap(path_);
   EXPECT_EQ(test::FindDifference(*stored.map, *map), "");
   EXPECT_EQ(test::FindProblem(*stored.map), "");
-  EXPECT_FALSE(stored.map->keyframes.Find(KeyframeId(0))->frame_id.valid());
+  const Keyframe& keyframe = *stored.map->keyframes.Find(KeyframeId(0));
+  EXPECT_FALSE(keyframe.frame_id.valid());
+  EXPECT_EQ(*keyframe.words, StaticWords(*keyframe.features));
   EXPECT_EQ(stored.map->FindLandmark(LandmarkId(1))->id, LandmarkId(2));
 }
 

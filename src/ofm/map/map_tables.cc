@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "ofm/base/error.h"
+#include "ofm/features/static_words.h"
 
 namespace ofm {
 namespace {
@@ -154,6 +155,7 @@ Objects<Keyframe> ReadKeyframes(const SqliteDatabase& database, const MapSetting
     keyframe->stamp_ns = row.Integer(1);
     keyframe->camera_from_world = ReadTransform(row, 2);
     keyframe->features = ReadFeatures(row, 9, settings);
+    keyframe->words = std::make_shared<const BagOfWords>(StaticWords(*keyframe->features));
     for (const std::uint32_t id :
          NumbersOf<std::uint32_t>(row.Blob(17), keyframe->features->size())) {
       keyframe->landmarks.emplace_back(id);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ofm/features/static_words.h"
 #include "ofm/mapping/keyframe_culling.h"
 #include "ofm/mapping/landmark_fusion.h"
 #include "ofm/mapping/landmark_triangulation.h"
@@ -39,6 +40,7 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   keyframe.frame_id = candidate.frame_id;
   keyframe.stamp_ns = candidate.stamp_ns;
   keyframe.features = candidate.features;
+  keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*candidate.features));
   keyframe.landmarks = candidate.landmarks;
   keyframe.camera_from_world = candidate.camera_from_world;
   // The reference may have been adjusted since the candidate was tracked against it.
