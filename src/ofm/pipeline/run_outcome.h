@@ -25,6 +25,7 @@ struct RunOutcome {
   Trajectory live_trajectory;  ///< what was known at the time of each frame
   Trajectory keyframe_trajectory;
   std::shared_ptr<const MapSnapshot> map;
+  bool map_is_whole = true;  ///< false where an error cut a change of the map short
   std::optional<SemanticMap> semantic_map;
   std::vector<std::string> class_names;
   StageTimes times;

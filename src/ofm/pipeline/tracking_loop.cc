@@ -27,14 +27,17 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   if (lost && !lost_) ++losses_;
   lost_ = lost;
   masked_sum_ += prepared.dynamic.masked_share;
-  sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
+  const bool mapping = !slam_.options().localize_only;
+  if (mapping) {
+    sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
+  }
   FrameReport report{prepared, result, log_.frames()};
   if (input.map) {
     report.keyframes = input.map->keyframe_count;
     report.landmarks = input.map->landmark_count;
   }
   for (RunObserver* observer : context_.observers) observer->OnFrame(report);
-  if (!result.keyframe) return {};
+  if (!result.keyframe || !mapping) return {};
   ++keyframes_made_;
   KeyframeJob job;
   job.candidate = std::move(*result.keyframe);

@@ -48,6 +48,9 @@ Trajectory KeyframeTrajectory(const MapSnapshot& map) {
   map.keyframes.ForEach([&](const Keyframe& keyframe) {
     trajectory.push_back({keyframe.stamp_ns, keyframe.camera_from_world.Inverse()});
   });
+  std::ranges::stable_sort(trajectory, {}, &StampedPose::stamp_ns);
+  const auto repeated = std::ranges::unique(trajectory, {}, &StampedPose::stamp_ns);
+  trajectory.erase(repeated.begin(), repeated.end());
   return trajectory;
 }
 

@@ -37,7 +37,8 @@ class TrajectoryLog {
   std::vector<Entry> entries_;  // by increasing frame id
 };
 
-/// Poses of the keyframes that are in the map.
+/// Poses of the keyframes that are in the map, by time; of two of the same time, as where a
+/// recording was mapped twice, the older one.
 Trajectory KeyframeTrajectory(const MapSnapshot& map);
 
 }  // namespace ofm

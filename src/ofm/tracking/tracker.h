@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "ofm/base/random.h"
-#include "ofm/tracking/frame_matcher.h"
+#include "ofm/tracking/pose_search.h"
 #include "ofm/tracking/tracking_types.h"
 
 namespace ofm {
@@ -21,8 +20,6 @@ class Tracker {
   TrackingResult Process(const TrackingInput& input);
 
  private:
-  struct Estimate;
-
   TrackingResult Initialize(const TrackingInput& input) const;
   TrackingResult TrackOrRelocalize(const TrackingInput& input) const;
   TrackingInput AlignDepth(const TrackingInput& input,
@@ -31,20 +28,11 @@ class Tracker {
                                      const TrackingResult& result) const;
   RigidTransform PredictPose(const TrackingInput& input) const;
   void SyncWithMap(const MapSnapshot& map);
-  std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
-  std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,
-                                            int min_inliers) const;
-  std::optional<Estimate> Relocalize(const TrackingInput& input) const;
-  bool IsSeenMoving(const TrackingInput& input, const RigidTransform& camera_from_world,
-                    LandmarkId id) const;
-  TrackingResult TrackLocalMap(const TrackingInput& input, const Estimate& estimate) const;
-  std::optional<Estimate> OptimizeMatches(const TrackingInput& input, const RigidTransform& initial,
-                                          const std::vector<PointMatch>& matches) const;
   void Remember(const TrackingInput& input, const TrackingResult& result);
 
   MeasurementModel model_;
   TrackingOptions options_;
-  std::uint64_t seed_;
+  PoseSearch search_;
   std::optional<TrackedFrame> last_;      // with a pose; empty while lost or waiting
   KeyframeId reference_;                  // of the last frame with a pose
   RigidTransform camera_from_reference_;  // of the last frame with a pose
