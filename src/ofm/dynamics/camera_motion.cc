@@ -64,7 +64,7 @@ CameraMotion EstimateWithSigma(const PinholeCamera& camera, const LatticePair& p
                                const RigidTransform& predicted, const MotionOptions& options,
                                double pixel_sigma, RandomEngine& engine) {
   const CameraMotionOptions& motion = options.camera_motion;
-  CameraMotion result{predicted, 0, false};
+  CameraMotion result{predicted};
   const auto observations = Observe(camera, pair, options, pixel_sigma);
   const auto consider = [&](const PoseEstimate& pose) {
     const double share = static_cast<double>(pose.inlier_count) / observations.size();
@@ -95,7 +95,9 @@ CameraMotion EstimateCameraMotion(const PinholeCamera& lattice_camera, const Lat
   if (sharp.inlier_share >= motion.blurred_share) return sharp;
   const CameraMotion blurred = EstimateWithSigma(lattice_camera, pair, predicted, options,
                                                  motion.blurred_pixel_sigma, engine);
-  return blurred.inlier_share >= motion.blurred_share ? blurred : CameraMotion{predicted, 0, false};
+  if (blurred.inlier_share >= motion.blurred_share) return blurred;
+  const std::size_t points = Observe(lattice_camera, pair, options, motion.pixel_sigma).size();
+  return {predicted, 0, false, static_cast<int>(points) >= motion.min_points};
 }
 
 }  // namespace ofm
