@@ -31,6 +31,10 @@ class IdealLattice {
   /// The lattice's own camera: its pixels are the lattice's points, without distortion.
   const PinholeCamera& camera() const { return lattice_camera_; }
 
+  /// Pixels of the camera's image outside of which none is nearest to a point of `points` (columns
+  /// and rows of the lattice).
+  cv::Rect ImageRect(const cv::Rect& points) const;
+
   /// Per pixel of the camera's image, the nearest point (column, row). CV_16SC2.
   const cv::Mat& nearest_points() const { return nearest_points_; }
 

@@ -123,7 +123,7 @@ class CameraMotionOfRenderedFrames : public testing::TestWithParam<int> {
   MotionOptions options_;
   const test::WalkingRecording& recording_ = test::WalkingRecording::Get(GetParam());
   const SimSequence& sequence_ = recording_.sequence;
-  MotionLattice lattice_{sequence_.camera(), options_};
+  MotionLattice lattice_{sequence_.camera(), options_.lattice};
 };
 
 TEST_P(CameraMotionOfRenderedFrames, IsThatOfTheSimulation) {
