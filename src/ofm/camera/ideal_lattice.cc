@@ -84,6 +84,8 @@ IdealLattice::IdealLattice(const PinholeCamera& camera, int spacing_px, int mult
       reduced_px_.at<cv::Point2f>(row, column) = {reduced.x(), reduced.y()};
     }
   }
+  cv::Mat nothing;
+  cv::convertMaps(image_px_, cv::noArray(), image_pixels_, nothing, CV_16SC2, true);
   nearest_points_.create(camera.height, camera.width, CV_16SC2);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
@@ -125,7 +127,7 @@ cv::Rect IdealLattice::ImageRect(const cv::Rect& points) const {
 
 cv::Mat IdealLattice::SampleNearest(const cv::Mat& image) const {
   cv::Mat result;
-  cv::remap(image, result, image_px_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+  cv::remap(image, result, image_pixels_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
   return result;
 }
 

@@ -51,6 +51,7 @@ class IdealLattice {
   Eigen::Vector2d origin_px_;
   PinholeCamera lattice_camera_;
   cv::Mat image_px_;        // CV_32FC2, per point: where the camera sees it
+  cv::Mat image_pixels_;    // CV_16SC2, the same in whole pixels
   cv::Mat reduced_px_;      // the same in an image reduced by the spacing
   cv::Mat nearest_points_;  // CV_16SC2, per pixel of the image: the nearest point
 };
