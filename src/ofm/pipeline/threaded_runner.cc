@@ -4,7 +4,6 @@
 
 #include "ofm/base/bounded_queue.h"
 #include "ofm/base/latest.h"
-#include "ofm/base/thread_priority.h"
 #include "ofm/base/time.h"
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/keep_error.h"
@@ -16,8 +15,6 @@ namespace {
 
 constexpr std::size_t kPreparedFrames = 2;
 constexpr std::size_t kKeyframeJobs = 8;
-/// Tracking goes before mapping where both want a core.
-constexpr int kMappingNiceness = 5;
 
 /// How a thread of a run ended. Written by it, read after it was joined.
 struct ThreadEnd {
@@ -68,7 +65,6 @@ ThreadEnd RunFrontEnd(Slam& slam, FrameSource& source, std::stop_token stop, Exc
 }
 
 ThreadEnd RunBackEnd(BackEnd& back_end, Exchange& exchange) {
-  LowerThreadPriority(kMappingNiceness);
   ThreadEnd end = Guard([&] {
     while (std::optional<KeyframeJob> job = exchange.jobs.Pop()) {
       exchange.map.Set(back_end.Insert(std::move(*job)));
