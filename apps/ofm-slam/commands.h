@@ -11,5 +11,6 @@ void AddEvaluateMapCommand(CLI::App& app);
 void AddMapCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);
+void AddVocabularyCommand(CLI::App& app);
 
 }  // namespace ofm
