@@ -35,7 +35,7 @@ double SharedPart(const PinholeCamera& camera, const PlaceView& a, const PlaceVi
 
 /// The best answer to one query.
 struct Answer {
-  double score;
+  double similarity;
   bool is_right;
 };
 
@@ -45,14 +45,14 @@ struct Recall {
 
 /// Highest recall of all thresholds at which the answers have the precision.
 Recall BestRecall(std::vector<Answer> answers, int expected, double min_precision) {
-  std::ranges::stable_sort(answers, std::greater<>(), &Answer::score);
+  std::ranges::stable_sort(answers, std::greater<>(), &Answer::similarity);
   Recall best;
   int given = 0, right = 0;
   for (const Answer& answer : answers) {
     ++given;
     right += answer.is_right;
     const double share = static_cast<double>(right) / expected;
-    if (right >= min_precision * given && share > best.share) best = {share, answer.score};
+    if (right >= min_precision * given && share > best.share) best = {share, answer.similarity};
   }
   return best;
 }
@@ -82,7 +82,7 @@ class PlaceMeter {
       quality.first_right += is_expected && is_right;
       // An answer of some overlap to a view that need not be recognised counts neither way.
       if (is_right && !is_expected) continue;
-      answers.push_back({Score(i, found[0].similarity), is_right});
+      answers.push_back({found[0].similarity, is_right});
     }
     const Recall full = BestRecall(answers, quality.expected, 1);
     const Recall most = BestRecall(answers, quality.expected, 0.95);
@@ -110,10 +110,6 @@ class PlaceMeter {
       if (!IsNear(i, j) && overlaps[j] >= criteria_.overlap_right) return true;
     }
     return false;
-  }
-  double Score(std::uint32_t i, double similarity) const {
-    if (criteria_.score == PlaceScore::kSimilarity) return similarity;
-    return similarity / std::max(Similarity(words_[i], words_[i - 1]), 0.01);
   }
 
   const std::vector<PlaceView>& views_;

@@ -29,25 +29,18 @@ double ViewOverlap(const PinholeCamera& camera, const PlaceView& a, const PlaceV
 std::vector<std::vector<double>> ViewOverlaps(const PinholeCamera& camera,
                                               const std::vector<PlaceView>& views);
 
-/// How the most similar view's score is made.
-enum class PlaceScore {
-  kSimilarity,  ///< as it is
-  kNormalized,  ///< over the similarity to the view just before (Galvez-Lopez and Tardos, 2012)
-};
-
 struct PlaceCriteria {
   double min_gap_s = 3;         ///< views nearer in time are not asked for
   double overlap_right = 0.5;   ///< a view with such a one is to be recognised
   double overlap_wrong = 0.25;  ///< an answer with less is wrong
-  PlaceScore score = PlaceScore::kSimilarity;
 };
 
 /// Of queries, one a view, whose answer is the most similar view; answers count from a threshold of
-/// their score upwards.
+/// the similarity upwards.
 struct PlaceQuality {
   int queries = 0;      ///< in all
   int expected = 0;     ///< whose place was seen at another time
-  int first_right = 0;  ///< of `expected`, those whose answer is right, whatever the score
+  int first_right = 0;  ///< of `expected`, those whose answer is right, however similar
   double recall_at_full_precision = 0, recall_at_95_precision = 0;  ///< the best of all thresholds
   double threshold_at_full_precision = 0, threshold_at_95_precision = 0;
 };
