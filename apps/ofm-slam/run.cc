@@ -75,6 +75,9 @@ void AddRunCommand(CLI::App& app) {
                     "Play at the recorded pace, threaded, and drop frames that come too early");
   command->add_option("--true-masks", settings.true_masks,
                       "Folder of true instance masks (PNG): culling is measured against them");
+  command->add_option("--write-masks", settings.write_masks,
+                      "Folder for each frame's instances (JSON), which --segmenter masks reads: a\n"
+                      "slow network then runs once for many runs");
   command->add_option("--debug-video", settings.debug_video,
                       "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
   CLI::Option* load = command->add_option("--load-map", settings.load_map,

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "debug_video.h"
+#include "mask_writer.h"
 #include "ofm/base/error.h"
 #include "ofm/base/time.h"
 #include "ofm/io/atomic_file.h"
@@ -130,6 +131,10 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (!settings.debug_video.empty()) {
     video.emplace(settings.debug_video, segmenter->class_names());
   }
+  std::optional<MaskWriter> mask_writer;
+  if (!settings.write_masks.empty()) {
+    mask_writer.emplace(settings.write_masks, segmenter->class_names());
+  }
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -138,6 +143,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (!settings.quiet) context.observers.push_back(&progress);
     if (video) context.observers.push_back(&*video);
     if (meter) context.observers.push_back(&*meter);
+    if (mask_writer) context.observers.push_back(&*mask_writer);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)

@@ -33,6 +33,7 @@ Json CountsJson(const RunCounts& counts) {
           {"frames_tracked", counts.frames_tracked},
           {"tracked_share", share},
           {"frames_dropped", counts.frames_dropped},
+          {"frames_reckoned", counts.frames_reckoned},
           {"losses", counts.losses},
           {"keyframes_made", counts.keyframes_made},
           {"keyframes", counts.keyframes},

@@ -59,6 +59,7 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
   outcome.times.Merge(back_end.times());
   outcome.counts.frames = log_.frames();
   outcome.counts.frames_tracked = log_.CountWithPose();
+  outcome.counts.frames_reckoned = log_.CountReckoned();
   outcome.counts.keyframes_made = keyframes_made_;
   outcome.counts.keyframes = outcome.map->keyframe_count;
   outcome.counts.landmarks = outcome.map->landmark_count;

@@ -43,6 +43,10 @@ std::size_t TrajectoryLog::CountWithPose() const {
                        [](const Entry& entry) { return HasPose(entry.status); });
 }
 
+std::size_t TrajectoryLog::CountReckoned() const {
+  return std::ranges::count(entries_, TrackingStatus::kReckoned, &Entry::status);
+}
+
 Trajectory KeyframeTrajectory(const MapSnapshot& map) {
   Trajectory trajectory;
   map.keyframes.ForEach([&](const Keyframe& keyframe) {

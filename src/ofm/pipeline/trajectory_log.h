@@ -23,6 +23,7 @@ class TrajectoryLog {
 
   std::size_t frames() const { return entries_.size(); }
   std::size_t CountWithPose() const;
+  std::size_t CountReckoned() const;
 
  private:
   struct Entry {

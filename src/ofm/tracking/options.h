@@ -46,6 +46,23 @@ struct RelocalizationOptions {
   }
 };
 
+/// How far the camera is followed without any landmark, by its motion from frame to frame.
+struct DeadReckoningOptions {
+  double max_s = 0.7;       ///< since the last frame with landmarks; then it is lost
+  double keyframe_s = 0.1;  ///< after which the map is continued from what is seen now
+  int min_features = 300;   ///< with depth, for that
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("max_s", self.max_s, "without landmarks the camera is lost after this [s]; 0 = at once",
+          Range{0, 60});
+    visit("keyframe_s", self.keyframe_s,
+          "without landmarks the map is continued by a new keyframe after this [s]", Range{0, 60});
+    visit("min_features", self.min_features, "features with depth that such a keyframe needs",
+          Range{10, 100000});
+  }
+};
+
 struct TrackingOptions {
   int min_start_features = 300;  ///< with depth, to begin a map
   double search_radius_px = 15;  ///< frame to frame, at octave 0
@@ -60,6 +77,7 @@ struct TrackingOptions {
   double ratio = 0.9;        ///< best to second best distance, frame to frame
   double map_ratio = 0.8;    ///< the same, against the local map
   double map_radius_px = 3;  ///< multiplies the local map's search radius of 2.5 or 4
+  DeadReckoningOptions dead_reckoning;
   RelocalizationOptions relocalization;
   KeyframeOptions keyframe;
   PoseOptimizerOptions pose;
@@ -89,6 +107,7 @@ struct TrackingOptions {
     visit("map_ratio", self.map_ratio, "best to second best distance, local map", Range{0.1, 1});
     visit("map_radius_px", self.map_radius_px, "scales the local map's search radius",
           Range{0.1, 50});
+    visit("dead_reckoning", self.dead_reckoning);
     visit("relocalization", self.relocalization);
     visit("keyframe", self.keyframe);
     visit("pose", self.pose);

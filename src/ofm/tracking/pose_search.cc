@@ -46,7 +46,7 @@ TrackingResult PoseSearch::InLocalMap(const TrackingInput& input,
   TrackingResult result;
   result.status = TrackingStatus::kLost;
   result.landmarks.resize(input.features->size());
-  const FrameView view{*input.features, estimate.camera_from_world};
+  const FrameView view{*input.features, estimate.camera_from_world, estimate.near};
   std::vector<PointMatch> matches;
   for (const PointMatch& match : estimate.matches) {
     if (match.landmark.valid()) matches.push_back(match);

@@ -15,6 +15,7 @@ struct CameraEstimate {
   RigidTransform camera_from_world;
   std::vector<PointMatch> matches;  ///< inliers only
   int map_matches = 0;              ///< of these, how many show a landmark
+  KeyframeId near = {};             ///< where to search with no matches at all
 };
 
 /// Finds poses of frames in snapshots of the map. Keeps nothing between calls.

@@ -21,9 +21,11 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
   TrackingResult result = TrackOrRelocalize(AlignDepth(input, velocity_));
   // Once more with the motion that was found: the predicted one is not good enough for landmarks.
   const TrackingInput aligned = AlignDepth(input, VelocityTo(input, result));
-  if (HasPose(result.status) &&
+  const bool is_needed =
+      HasPose(result.status) && result.inliers > 0 &&
       NeedsKeyframe(GatherKeyframeEvidence(model_, aligned, result, last_keyframe_frame_),
-                    options_.keyframe)) {
+                    options_.keyframe);
+  if (is_needed || ContinuesMap(aligned, result)) {
     result.keyframe = KeyframeCandidate{input.frame_id,
                                         input.stamp_ns,
                                         result.camera_from_world,
@@ -70,6 +72,7 @@ TrackingResult Tracker::TrackOrRelocalize(const TrackingInput& input) const {
   };
   if (last_) {
     consider(search_.FromLastFrame(input, *last_, PredictPose(input)));
+    if (!HasPose(best.status)) consider(CameraEstimate{PredictPose(input), {}, 0, reference_});
     const Keyframe* reference = input.map->keyframes.Find(reference_);
     if (reference != nullptr && best.inliers < options_.doubtful_share * last_inliers_) {
       consider(search_.FromKeyframe(input, *reference, options_.min_frame_inliers));
@@ -77,7 +80,36 @@ TrackingResult Tracker::TrackOrRelocalize(const TrackingInput& input) const {
   }
   if (HasPose(best.status)) return best;
   if (auto found = Relocalize(search_, input, reference_)) return *std::move(found);
+  if (auto reckoned = Reckon(input)) return *std::move(reckoned);
   return best;
+}
+
+/// The last pose and the camera's motion since; empty where that is not known or no longer good
+/// enough. Constant velocity is believed for one frame only.
+std::optional<TrackingResult> Tracker::Reckon(const TrackingInput& input) const {
+  if (!last_ || input.stamp_ns - fix_stamp_ns_ > options_.dead_reckoning.max_s * 1e9) return {};
+  const bool is_measured = input.motion_hint && input.motion_hint->last_stamp_ns == last_->stamp_ns;
+  const bool is_first = last_->stamp_ns == fix_stamp_ns_;
+  if (!is_measured && !(is_first && velocity_)) return {};
+  TrackingResult result;
+  result.status = TrackingStatus::kReckoned;
+  result.camera_from_world = PredictPose(input);
+  result.reference = reference_;
+  result.camera_from_reference =
+      result.camera_from_world * last_->camera_from_world.Inverse() * camera_from_reference_;
+  result.landmarks.resize(input.features->size());
+  return result;
+}
+
+/// Whether a frame without landmarks should become a keyframe: the camera looks sharply at what
+/// the map does not have.
+bool Tracker::ContinuesMap(const TrackingInput& input, const TrackingResult& result) const {
+  const DeadReckoningOptions& options = options_.dead_reckoning;
+  if (result.status != TrackingStatus::kReckoned || !input.motion_hint) return false;
+  if (input.stamp_ns - fix_stamp_ns_ < options.keyframe_s * 1e9) return false;
+  const auto has_depth = [](float depth) { return depth > 0; };
+  return std::ranges::count_if(input.features->depth_m, has_depth) >= options.min_features &&
+         input.keyframes_waiting == 0;
 }
 
 TrackingResult Tracker::Initialize(const TrackingInput& input) const {
@@ -131,6 +163,7 @@ void Tracker::Remember(const TrackingInput& input, const TrackingResult& result)
   last_ = TrackedFrame{input.frame_id, input.stamp_ns, input.features, result.landmarks,
                        result.camera_from_world};
   last_inliers_ = result.inliers;
+  if (result.status != TrackingStatus::kReckoned || result.keyframe) fix_stamp_ns_ = input.stamp_ns;
   reference_ = result.reference;
   camera_from_reference_ = result.camera_from_reference;
   if (result.keyframe) last_keyframe_frame_ = input.frame_id;

@@ -22,6 +22,8 @@ class Tracker {
  private:
   TrackingResult Initialize(const TrackingInput& input) const;
   TrackingResult TrackOrRelocalize(const TrackingInput& input) const;
+  std::optional<TrackingResult> Reckon(const TrackingInput& input) const;
+  bool ContinuesMap(const TrackingInput& input, const TrackingResult& result) const;
   TrackingInput AlignDepth(const TrackingInput& input,
                            const std::optional<Vector6d>& velocity) const;
   std::optional<Vector6d> VelocityTo(const TrackingInput& input,
@@ -38,7 +40,8 @@ class Tracker {
   RigidTransform camera_from_reference_;  // of the last frame with a pose
   std::optional<Vector6d> velocity_;      // twist of camera_from_world per second
   int last_inliers_ = 0;
-  FrameId last_keyframe_frame_;  // the newest frame that was proposed as keyframe
+  std::int64_t fix_stamp_ns_ = 0;  // of the last frame that was not reckoned
+  FrameId last_keyframe_frame_;    // the newest frame that was proposed as keyframe
 };
 
 }  // namespace ofm
