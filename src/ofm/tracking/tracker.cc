@@ -72,7 +72,11 @@ TrackingResult Tracker::TrackOrRelocalize(const TrackingInput& input) const {
   };
   if (last_) {
     consider(search_.FromLastFrame(input, *last_, PredictPose(input)));
-    if (!HasPose(best.status)) consider(CameraEstimate{PredictPose(input), {}, 0, reference_});
+    // Where the last frame has no landmarks, by the place alone; the newest keyframe may not share
+    // any with the reference.
+    for (const KeyframeId near : {reference_, input.map->latest_keyframe}) {
+      if (!HasPose(best.status)) consider(CameraEstimate{PredictPose(input), {}, 0, near});
+    }
     const Keyframe* reference = input.map->keyframes.Find(reference_);
     if (reference != nullptr && best.inliers < options_.doubtful_share * last_inliers_) {
       consider(search_.FromKeyframe(input, *reference, options_.min_frame_inliers));
@@ -138,6 +142,7 @@ void Tracker::SyncWithMap(const MapSnapshot& map) {
     reference_ = latest->id;
     camera_from_reference_ = RigidTransform();
     last_->landmarks = latest->landmarks;
+    fix_stamp_ns_ = last_->stamp_ns;
   }
   const auto reference_pose = map.FindKeyframePose(reference_);
   if (reference_pose) last_->camera_from_world = camera_from_reference_ * *reference_pose;
@@ -163,7 +168,7 @@ void Tracker::Remember(const TrackingInput& input, const TrackingResult& result)
   last_ = TrackedFrame{input.frame_id, input.stamp_ns, input.features, result.landmarks,
                        result.camera_from_world};
   last_inliers_ = result.inliers;
-  if (result.status != TrackingStatus::kReckoned || result.keyframe) fix_stamp_ns_ = input.stamp_ns;
+  if (result.status != TrackingStatus::kReckoned) fix_stamp_ns_ = input.stamp_ns;
   reference_ = result.reference;
   camera_from_reference_ = result.camera_from_reference;
   if (result.keyframe) last_keyframe_frame_ = input.frame_id;
