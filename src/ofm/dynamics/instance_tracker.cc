@@ -76,8 +76,8 @@ bool Bridge(const cv::Mat& depth_m, InstanceTrack& track) {
     const auto depth = static_cast<float>(track.state.depth_m());
     const cv::Rect box = cv::boundingRect(mask);
     cv::Mat object = mask(box);
-    TrimToDepth(depth_m(box),
-                {depth + track.seen.depths->near_m, depth + track.seen.depths->far_m}, object);
+    TrimToDepth(depth_m(box), {depth + track.seen.depths->near_m, depth + track.seen.depths->far_m},
+                object);
   }
   constexpr double kMinPartShare = 0.1;
   constexpr int kMinArea = 64;
