@@ -40,8 +40,10 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
   ofm::AddEvaluateMapCommand(app);
+  ofm::AddMapCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddModelsCommand(app);
+  ofm::AddVocabularyCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -48,6 +48,16 @@ std::optional<RigidTransform> MapSnapshot::FindKeyframePose(KeyframeId id) const
   return camera_from_anchor * keyframe->camera_from_world;
 }
 
+Map::Map(OctaveScales scales, const MapSnapshot& snapshot)
+    : scales_(std::move(scales)),
+      keyframes_(snapshot.keyframes),
+      landmarks_(snapshot.landmarks),
+      replacements_(snapshot.replacements),
+      anchors_(snapshot.anchors),
+      latest_keyframe_(snapshot.latest_keyframe) {
+  OFM_CHECK(replacements_.size() == snapshot.landmarks.ids_issued());
+}
+
 const Landmark* Map::FindLandmark(LandmarkId id) const {
   return landmarks_.Find(FollowReplacements(id, replacements_));
 }

@@ -43,12 +43,14 @@ std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
 
 void BackEnd::Finish(RunOutcome& outcome) {
   outcome.map = slam_.mapper().Snapshot();
-  if (slam_.options().final_adjustment && is_whole_) {
+  outcome.map_is_whole = is_whole_;
+  // A loaded map to which nothing was added stays as it is.
+  if (slam_.options().final_adjustment && is_whole_ && !keyframe_of_frame_.empty()) {
     ScopedStageTimer timer(times_, "final_adjustment");
     slam_.mapper().AdjustAll();
     outcome.map = slam_.mapper().Snapshot();
   }
-  if (!slam_.options().build_semantic_map) return;
+  if (!slam_.options().build_semantic_map || slam_.options().localize_only) return;
   ScopedStageTimer timer(times_, "semantic_map");
   std::map<KeyframeId, RigidTransform> poses;
   for (const auto& [frame, keyframe] : keyframe_of_frame_) {
