@@ -1,0 +1,120 @@
+// Makes the vocabulary that comes with the program from images of simulated rooms, with nothing
+// recorded in them; the same build on the same machine gives the same bytes:
+//   build/release/bin/ofm_train_default_vocabulary src/ofm/features/default_vocabulary.bin
+//
+// Every room is painted anew, coarser and finer, with more and less contrast, and is seen with the
+// noise and now and then with the blur of a camera, so that the words divide what real images show.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "ofm/base/error.h"
+#include "ofm/base/random.h"
+#include "ofm/features/orb_extractor.h"
+#include "ofm/features/vocabulary_file.h"
+#include "ofm/features/vocabulary_training.h"
+#include "ofm/sim/sim_sequence.h"
+
+namespace ofm {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr int kRooms = 150;
+constexpr int kViewsPerRoom = 8;
+
+double Uniform(RandomEngine& engine, double low, double high) {
+  return low + (high - low) * UniformReal(engine);
+}
+
+TextureOptions RandomTexture(RandomEngine& engine) {
+  TextureOptions texture;
+  const double kind = UniformReal(engine);
+  texture.style = kind < 0.8   ? TextureStyle::kPatches
+                  : kind < 0.9 ? TextureStyle::kNoise
+                               : TextureStyle::kChecker;
+  texture.metres_per_texel = 1e-3 * std::exp(Uniform(engine, 0, std::log(8.0)));
+  texture.contrast = Uniform(engine, 0.2, 1);
+  return texture;
+}
+
+/// The room with every texture replaced by another.
+Scene PaintAnew(const Scene& room, RandomEngine& engine) {
+  std::map<const Texture*, std::size_t> numbers;  // in the order of the parts, not of the addresses
+  std::vector<std::shared_ptr<const Texture>> textures;
+  std::vector<Body> bodies = room.bodies();
+  for (Body& body : bodies) {
+    for (Part& part : body.parts) {
+      const auto [found, is_new] = numbers.emplace(part.texture.get(), textures.size());
+      if (is_new) {
+        const TextureOptions options = RandomTexture(engine);
+        textures.push_back(std::make_shared<const Texture>(options, engine()));
+      }
+      part.texture = textures[found->second];
+    }
+  }
+  return {std::move(bodies), room.viewpoint()};
+}
+
+SimSequence MakeRandomRoom(std::uint64_t seed, RandomEngine& engine) {
+  constexpr CameraPathKind kPaths[] = {CameraPathKind::kTour, CameraPathKind::kHalfsphere,
+                                       CameraPathKind::kXyz, CameraPathKind::kRpy};
+  SimSequenceOptions options;
+  options.seed = seed;
+  options.frames = kViewsPerRoom;
+  options.camera = MakeSimCamera(640, 480);
+  options.path.kind = kPaths[seed % 4];
+  options.path.period_s = 6;
+  options.rate_hz = kViewsPerRoom / 24.0;  // over a whole tour
+  options.room.width_m = Uniform(engine, 4, 8);
+  options.room.depth_m = Uniform(engine, 4, 7);
+  options.room.people = static_cast<int>(UniformIndex(engine, 3));
+  options.noise.model = NoiseModel::kKinect;
+  options.noise.image_sigma = Uniform(engine, 1, 4);
+  return {options, PaintAnew(MakeRoom(options.room, seed), engine)};
+}
+
+std::vector<std::vector<Descriptor>> DescribeRooms() {
+  OrbExtractor extractor{OrbOptions()};
+  std::vector<std::vector<Descriptor>> images;
+  for (std::uint64_t room = 1; room <= kRooms; ++room) {
+    RandomEngine engine = MakeRandomEngine(kSeed, room);
+    SimSequence sequence = MakeRandomRoom(room, engine);
+    while (const auto frame = sequence.Next()) {
+      cv::Mat gray = frame->gray.clone();
+      const double blur_px = Uniform(engine, -1, 1.5);
+      if (blur_px > 0.3) cv::GaussianBlur(gray, gray, {}, blur_px);
+      images.push_back(extractor.Extract(gray).descriptors);
+    }
+    fmt::print(stderr, "\rroom {} of {}", room, kRooms);
+  }
+  fmt::print(stderr, "\n");
+  return images;
+}
+
+int Main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "give the path of the file to write\n");
+    return 1;
+  }
+  cv::setNumThreads(1);
+  try {
+    const auto vocabulary =
+        TrainVocabulary(DescribeRooms(), VocabularyTrainingOptions(), MakeRandomEngine(kSeed, 0));
+    SaveVocabulary(argv[1], *vocabulary);
+    fmt::print("{} words\n", vocabulary->word_count());
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace ofm
+
+int main(int argc, char** argv) { return ofm::Main(argc, argv); }
