@@ -68,6 +68,17 @@ std::optional<TrajectoryEvaluation> Evaluate(const std::optional<Truth>& truth,
   }
 }
 
+std::string FormatLoops(const RunOutcome& outcome) {
+  const LoopCounts& counts = outcome.loop_counts;
+  int fused = 0;
+  for (const LoopRecord& loop : outcome.loops) fused += loop.landmarks_fused;
+  return fmt::format(
+      "loops       {} closed, {} landmarks fused; of {} similar keyframes {} were inconsistent, {} "
+      "had few matches, {} no alignment, {} few inliers\n",
+      counts.closed, fused, counts.similar, counts.inconsistent, counts.few_matches,
+      counts.no_alignment, counts.few_inliers);
+}
+
 }  // namespace
 
 RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
@@ -124,6 +135,7 @@ std::string FormatSummary(const RunReport& report) {
   text += fmt::format("map         {} keyframes ({} made), {} landmarks, {} cloud points\n",
                       counts.keyframes, counts.keyframes_made, counts.landmarks,
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
+  text += FormatLoops(outcome);
   text += fmt::format("culling     {:.1f} % of the pixels masked on average\n",
                       100 * counts.mean_masked_share);
   if (const auto& culling = report.description.culling) {

@@ -1,26 +1,23 @@
 #include "ofm/loop/loop_closer.h"
 
-#include "ofm/base/check.h"
 #include "ofm/loop/static_landmarks.h"
 
 namespace ofm {
 
 LoopCloser::LoopCloser(const MeasurementModel& model, const LoopOptions& options,
-                       std::shared_ptr<const Vocabulary> vocabulary, std::uint64_t seed)
+                       const Vocabulary& vocabulary, std::uint64_t seed)
     : model_(model),
       options_(options),
-      vocabulary_(std::move(vocabulary)),
+      vocabulary_(vocabulary),
       seed_(seed),
       detector_(options),
-      keyframes_since_loop_(options.pause_keyframes) {
-  OFM_CHECK(vocabulary_ != nullptr);
-}
+      keyframes_since_loop_(options.pause_keyframes) {}
 
 std::optional<LoopClosure> LoopCloser::Process(const MapSnapshot& map, KeyframeId id) {
   const Keyframe* keyframe = map.keyframes.Find(id);
   if (keyframe == nullptr) return {};
   const BagOfWords words =
-      vocabulary_->Describe(StaticDescriptors(map, *keyframe, options_.min_static_probability))
+      vocabulary_.Describe(StaticDescriptors(map, *keyframe, options_.min_static_probability))
           .words;
   if (keyframes_since_loop_ < options_.pause_keyframes) {
     ++keyframes_since_loop_;
@@ -49,10 +46,17 @@ std::optional<VerifiedLoop> LoopCloser::Verify(const MapSnapshot& map, KeyframeI
   for (const KeyframeId candidate : candidates) {
     LoopVerification verification = VerifyLoop(map, id, candidate, model_, options_, engine);
     switch (verification.verdict) {
-      case LoopVerdict::kFewMatches: ++counts_.few_matches; break;
-      case LoopVerdict::kNoAlignment: ++counts_.no_alignment; break;
-      case LoopVerdict::kFewInliers: ++counts_.few_inliers; break;
-      case LoopVerdict::kVerified: return std::move(verification.loop);
+      case LoopVerdict::kFewMatches:
+        ++counts_.few_matches;
+        break;
+      case LoopVerdict::kNoAlignment:
+        ++counts_.no_alignment;
+        break;
+      case LoopVerdict::kFewInliers:
+        ++counts_.few_inliers;
+        break;
+      case LoopVerdict::kVerified:
+        return std::move(verification.loop);
     }
   }
   return {};

@@ -1,7 +1,6 @@
 // The loop closing stage: places that were seen before.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,7 +16,6 @@ struct LoopCounts {
   std::size_t similar = 0;    ///< pairs of keyframes that look alike
   std::size_t inconsistent = 0, few_matches = 0, no_alignment = 0, few_inliers = 0;  ///< rejected
   std::size_t closed = 0;
-  std::size_t landmarks_fused = 0, observations_added = 0;  ///< counted by who applies corrections
 };
 
 /// A loop and what it means for the map.
@@ -29,9 +27,10 @@ struct LoopClosure {
 /// Looks for loops, keyframe by keyframe. Serves one thread.
 class LoopCloser {
  public:
-  /// `seed` decides all random draws, together with the keyframe's id.
+  /// `vocabulary` must outlive it. `seed` decides all random draws, together with the keyframe's
+  /// id.
   LoopCloser(const MeasurementModel& model, const LoopOptions& options,
-             std::shared_ptr<const Vocabulary> vocabulary, std::uint64_t seed);
+             const Vocabulary& vocabulary, std::uint64_t seed);
 
   /// Looks for a loop at keyframe `id` of `map`; keyframes come in increasing order of id. What is
   /// found counts as closed: the caller applies the correction.
@@ -45,7 +44,7 @@ class LoopCloser {
 
   MeasurementModel model_;
   LoopOptions options_;
-  std::shared_ptr<const Vocabulary> vocabulary_;
+  const Vocabulary& vocabulary_;
   std::uint64_t seed_;
   LoopDetector detector_;
   std::vector<ClosedLoop> closed_;

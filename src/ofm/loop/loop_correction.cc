@@ -127,9 +127,9 @@ std::optional<MapCorrection> ComputeLoopCorrection(const MapSnapshot& map, const
       graph.AddEdge(closed.place, closed.keyframe, kLoopSigmaScale);
     }
   }
-  graph.AddMeasured(loop.place, loop.keyframe,
-                    loop.camera_from_world * graph.Pose(loop.place).Inverse(), kLoopSigmaScale);
-  // The keyframes about the one that came back move with it at once; the optimiser spreads the rest.
+  graph.AddMeasured(loop.keyframe, loop.place, loop.place_from_keyframe, kLoopSigmaScale);
+  // The keyframes about the one that came back move with it at once; the optimiser spreads the
+  // rest.
   const RigidTransform drifted_from_world = graph.Pose(loop.keyframe);
   for (const KeyframeId id : KeyframesAbout(map, loop.keyframe)) {
     graph.SetStart(id, graph.Pose(id) * drifted_from_world.Inverse() * loop.camera_from_world);

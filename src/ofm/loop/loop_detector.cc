@@ -16,6 +16,15 @@ std::set<KeyframeId> NeighbourhoodOf(const MapSnapshot& map, KeyframeId id) {
   return neighbourhood;
 }
 
+/// The keyframe, its neighbours and theirs: mapping holds these together without loops.
+std::set<KeyframeId> SurroundingsOf(const MapSnapshot& map, KeyframeId id) {
+  std::set<KeyframeId> surroundings;
+  for (const KeyframeId neighbour : NeighbourhoodOf(map, id)) {
+    surroundings.merge(NeighbourhoodOf(map, neighbour));
+  }
+  return surroundings;
+}
+
 bool Intersect(const std::set<KeyframeId>& a, const std::set<KeyframeId>& b) {
   return std::any_of(a.begin(), a.end(), [&](KeyframeId id) { return b.contains(id); });
 }
@@ -27,13 +36,13 @@ void LoopDetector::Add(KeyframeId id, const BagOfWords& words) {
   rows_.clear();
 }
 
-/// Keyframes out of sight of `id` that look about as much like it as its neighbours do.
+/// Keyframes out of the surroundings of `id` that look about as much like it as its neighbours do.
 std::vector<KeyframeId> LoopDetector::FindSimilar(const MapSnapshot& map, KeyframeId id,
                                                   const BagOfWords& words) {
   PlaceQuery query;
   double best_neighbour = 0;
-  query.excluded = NeighbourhoodOf(map, id);
-  for (const KeyframeId neighbour : query.excluded) {
+  query.excluded = SurroundingsOf(map, id);
+  for (const KeyframeId neighbour : NeighbourhoodOf(map, id)) {
     const BagOfWords* theirs = database_.Find(neighbour);
     if (theirs == nullptr || neighbour == id) continue;
     best_neighbour = std::max(best_neighbour, Similarity(words, *theirs));
@@ -63,9 +72,8 @@ LoopCandidates LoopDetector::Detect(const MapSnapshot& map, KeyframeId id,
         row.keyframes = std::max(row.keyframes, last.keyframes + 1);
       }
     }
-    const bool is_enough =
-        row.keyframes >= options_.consistent_keyframes &&
-        static_cast<int>(candidates.consistent.size()) < options_.max_candidates;
+    const bool is_enough = row.keyframes >= options_.consistent_keyframes &&
+                           static_cast<int>(candidates.consistent.size()) < options_.max_candidates;
     if (is_enough) candidates.consistent.push_back(similar);
     rows.push_back(std::move(row));
   }

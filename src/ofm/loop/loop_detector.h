@@ -12,13 +12,15 @@ namespace ofm {
 
 /// What the detector found of one keyframe.
 struct LoopCandidates {
-  int similar = 0;                     ///< keyframes that look alike enough
-  std::vector<KeyframeId> consistent;  ///< of these, those that others in a row agree with; best first
+  int similar = 0;  ///< keyframes that look alike enough
+  std::vector<KeyframeId>
+      consistent;  ///< of these, those that others in a row agree with; best first
 };
 
 /// Candidates by appearance, with the checks of Mur-Artal and Tardos (Fast Relocalisation and Loop
-/// Closing in Keyframe-Based SLAM, ICRA 2014, section V-A): not a neighbour of the keyframe, about
-/// as similar as its best neighbour, and of neighbouring places over several keyframes in a row.
+/// Closing in Keyframe-Based SLAM, ICRA 2014, section V-A): no neighbour of the keyframe (nor one
+/// of its neighbours'), about as similar as its best neighbour, and of neighbouring places over
+/// several keyframes in a row.
 class LoopDetector {
  public:
   explicit LoopDetector(const LoopOptions& options) : options_(options) {}

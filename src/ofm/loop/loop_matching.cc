@@ -118,13 +118,13 @@ std::vector<LoopMatch> SearchByProjection(const MeasurementModel& model, const K
     if (!projection) continue;
     FeatureQuery query;
     query.ideal_px = projection->ideal_px.cast<float>();
-    query.radius_px =
-        static_cast<float>(search.radius_px) * model.scales.Scale(projection->octave);
+    query.radius_px = static_cast<float>(search.radius_px) * model.scales.Scale(projection->octave);
     query.min_octave = projection->octave - 1;
     query.max_octave = projection->octave + 1;
     query.descriptor = landmark.descriptor;
     const FeatureCandidate found = FindFeature(*keyframe.features, query, [&](int feature) {
-      return !taken[feature] && keyframe.features->StaticProbability(feature) >= search.min_static_probability;
+      return !taken[feature] &&
+             keyframe.features->StaticProbability(feature) >= search.min_static_probability;
     });
     if (found.feature < 0 || found.distance > search.max_hamming) continue;
     taken[found.feature] = 1;

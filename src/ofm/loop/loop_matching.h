@@ -19,7 +19,8 @@ std::vector<KeyframeId> KeyframesAbout(const MapSnapshot& map, KeyframeId id);
 
 /// Landmarks that these keyframes see and that are static with at least `min_probability`, each
 /// once.
-std::vector<LandmarkId> LandmarksOf(const MapSnapshot& map, const std::vector<KeyframeId>& keyframes,
+std::vector<LandmarkId> LandmarksOf(const MapSnapshot& map,
+                                    const std::vector<KeyframeId>& keyframes,
                                     double min_probability);
 
 /// Matches by descriptor alone between features of `keyframe` that show static landmarks and those
@@ -29,10 +30,10 @@ std::vector<LoopMatch> MatchPlace(const MapSnapshot& map, const Keyframe& keyfra
 
 /// How a guided search is done.
 struct LoopSearch {
-  RigidTransform camera_from_world;  ///< of the keyframe
-  double radius_px = 0;              ///< at octave 0
-  int max_hamming = 0;               ///< [bits]
-  double min_static_probability = 0; ///< of the features
+  RigidTransform camera_from_world;   ///< of the keyframe
+  double radius_px = 0;               ///< at octave 0
+  int max_hamming = 0;                ///< [bits]
+  double min_static_probability = 0;  ///< of the features
 };
 
 /// Matches `landmarks` (not seen by the keyframe) with its static features where they are expected;

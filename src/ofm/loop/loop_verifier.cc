@@ -75,11 +75,11 @@ LoopVerification VerifyLoop(const MapSnapshot& map, KeyframeId keyframe_id, Keyf
   const Keyframe& place = *map.keyframes.Find(place_id);
   const std::vector<KeyframeId> about = KeyframesAbout(map, place_id);
   const double min_probability = options.min_static_probability;
-  const std::vector<PointPair> pairs = MakePairs(
-      map, keyframe, place, model, MatchPlace(map, keyframe, about, min_probability));
+  const std::vector<PointPair> pairs =
+      MakePairs(map, keyframe, place, model, MatchPlace(map, keyframe, about, min_probability));
   if (static_cast<int>(pairs.size()) < options.min_matches) return {LoopVerdict::kFewMatches, {}};
-  const auto alignment = AlignPairsRansac(model.camera, pairs, options.min_alignment_inliers,
-                                          options.ransac, engine);
+  const auto alignment =
+      AlignPairsRansac(model.camera, pairs, options.min_alignment_inliers, options.ransac, engine);
   if (!alignment) return {LoopVerdict::kNoAlignment, {}};
 
   std::vector<Landmark> landmarks;
@@ -89,10 +89,10 @@ LoopVerification VerifyLoop(const MapSnapshot& map, KeyframeId keyframe_id, Keyf
   // Twice: the first pose comes from few matches, and its search misses what is far from them.
   LoopSearch search{alignment->target_from_source * place.camera_from_world, kRadiusPx, kMaxHamming,
                     min_probability};
-  search.camera_from_world =
-      FindAround(map, keyframe, landmarks, search, model).camera_from_world;
+  search.camera_from_world = FindAround(map, keyframe, landmarks, search, model).camera_from_world;
   VerifiedLoop loop = FindAround(map, keyframe, landmarks, search, model);
   loop.place = place_id;
+  loop.place_from_keyframe = place.camera_from_world * loop.camera_from_world.Inverse();
   if (static_cast<int>(loop.matches.size()) < options.min_inliers) {
     return {LoopVerdict::kFewInliers, {}};
   }

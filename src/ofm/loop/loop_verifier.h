@@ -13,8 +13,9 @@ namespace ofm {
 /// A keyframe that shows an earlier place.
 struct VerifiedLoop {
   KeyframeId keyframe, place;
-  RigidTransform camera_from_world;  ///< of the keyframe, by the landmarks of the place
-  std::vector<LoopMatch> matches;    ///< that agree with it
+  RigidTransform camera_from_world;    ///< of the keyframe, by the landmarks of the place
+  RigidTransform place_from_keyframe;  ///< the same, of the two cameras
+  std::vector<LoopMatch> matches;      ///< that agree with it
 };
 
 /// How far a check came.

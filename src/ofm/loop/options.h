@@ -9,18 +9,18 @@ namespace ofm {
 /// Loop closing (figures as published for ORB-SLAM2).
 struct LoopOptions {
   bool enabled = true;
-  double similarity_share = 0.75;      ///< of the best neighbour's similarity, for a candidate
-  int max_candidates = 3;              ///< checked for each keyframe
-  int consistent_keyframes = 3;        ///< in a row whose candidates are neighbours
-  int pause_keyframes = 10;            ///< after a loop, in which none is looked for
-  int min_matches = 20;                ///< by descriptor, with depth on both sides
-  int min_alignment_inliers = 20;      ///< of RANSAC on these
-  int min_inliers = 40;                ///< after the guided search
-  double min_static_probability = 0.5; ///< of features and landmarks that take part
-  int strong_covisibility = 100;       ///< shared landmarks that make an edge of the pose graph
+  double similarity_share = 0.75;       ///< of the best neighbour's similarity, for a candidate
+  int max_candidates = 3;               ///< checked for each keyframe
+  int consistent_keyframes = 3;         ///< in a row whose candidates are neighbours
+  int pause_keyframes = 10;             ///< after a loop, in which none is looked for
+  int min_matches = 20;                 ///< by descriptor, with depth on both sides
+  int min_alignment_inliers = 20;       ///< of RANSAC on these
+  int min_inliers = 40;                 ///< after the guided search
+  double min_static_probability = 0.5;  ///< of features and landmarks that take part
+  int strong_covisibility = 100;        ///< shared landmarks that make an edge of the pose graph
   RansacLimits ransac{300, 0.99};
   PoseGraphOptions pose_graph;
-  bool full_adjustment = true;         ///< bundle adjustment of the whole map after a loop
+  bool full_adjustment = true;  ///< bundle adjustment of the whole map after a loop
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

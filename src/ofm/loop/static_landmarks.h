@@ -7,8 +7,8 @@
 
 namespace ofm {
 
-/// True where the landmark that the feature shows, if any, and the feature itself are static with at
-/// least `min_probability`.
+/// True where the landmark that the feature shows, if any, and the feature itself are static with
+/// at least `min_probability`.
 inline bool IsStatic(const MapSnapshot& map, const Keyframe& keyframe, int feature,
                      double min_probability) {
   if (keyframe.features->StaticProbability(feature) < min_probability) return false;

@@ -40,8 +40,9 @@ struct SmallMap {
 TEST(MapCorrection, LandmarksMoveWithTheKeyframeThatMadeThem) {
   SmallMap small;
   ApplyCorrection(small.LiftSecond(), small.map);
-  EXPECT_LT(MaxDifference(small.map.GetKeyframe(small.second).camera_from_world,
-                          CameraAt(1, 0.5, 0)), 1e-12);
+  EXPECT_LT(
+      MaxDifference(small.map.GetKeyframe(small.second).camera_from_world, CameraAt(1, 0.5, 0)),
+      1e-12);
   EXPECT_EQ(small.Position(small.of_first), Eigen::Vector3d(0, 0, 2));
   EXPECT_EQ(small.Position(small.shared), Eigen::Vector3d(0.5, 0, 2));
   EXPECT_LT((small.Position(small.of_second) - Eigen::Vector3d(1, 0.5, 2)).norm(), 1e-12);
@@ -79,8 +80,9 @@ TEST(MapCorrection, AKeyframeMovedMeanwhileKeepsThatMotionToo) {
   const MapCorrection correction = small.LiftSecond();
   small.map.SetKeyframePose(small.second, CameraAt(1.01, 0, 0));
   ApplyCorrection(correction, small.map);
-  EXPECT_LT(MaxDifference(small.map.GetKeyframe(small.second).camera_from_world,
-                          CameraAt(1.01, 0.5, 0)), 1e-12);
+  EXPECT_LT(
+      MaxDifference(small.map.GetKeyframe(small.second).camera_from_world, CameraAt(1.01, 0.5, 0)),
+      1e-12);
 }
 
 TEST(MapCorrection, NamedLandmarksGoWhereTheyAreToldUnlessTheyMovedMeanwhile) {
