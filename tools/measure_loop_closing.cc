@@ -15,6 +15,7 @@
 #include "ofm/io/camera_file.h"
 #include "ofm/io/prefetching_source.h"
 #include "ofm/io/trajectory_file.h"
+#include "ofm/io/tum_sequence.h"
 #include "ofm/perception/make_segmenter.h"
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/runner.h"

@@ -19,7 +19,7 @@ struct LoopOptions {
   double min_static_probability = 0.5;  ///< of features and landmarks that take part
   int strong_covisibility = 100;        ///< shared landmarks that make an edge of the pose graph
   RansacLimits ransac{300, 0.99};
-  PoseGraphOptions pose_graph;
+  PoseGraphOptions pose_graph = {};
   bool full_adjustment = true;  ///< bundle adjustment of the whole map after a loop
 
   template <class Self, class Visitor>

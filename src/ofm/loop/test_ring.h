@@ -17,6 +17,7 @@ struct RingOptions {
   int landmarks = 1500;
   int keyframes_per_round = 24;
   double drift_m = 0.01, drift_rad = 0.004;  ///< standard deviation of each step's error
+  double bias_rad = 0;                       ///< by which each step turns too far
   double pixel_sigma = 0.5;                  ///< [px]
   int descriptor_noise_bits = 4;             ///< in each view, at random places
 };
@@ -75,6 +76,7 @@ class RingWorld {
     for (int k = 0; k < 6; ++k) {
       twist[k] = (k < 3 ? options_.drift_m : options_.drift_rad) * NormalDeviate(engine);
     }
+    twist[4] += options_.bias_rad;
     return ExpSe3(twist);
   }
 
