@@ -32,9 +32,9 @@ class RingRun {
     back_end_.Finish(outcome);
     return outcome;
   }
-  const Map& map() const { return slam_.mapper().map(); }
+  const Map& map() { return slam_.mapper().map(); }
   /// Distance of a keyframe from where it should be [m].
-  double Error_m(KeyframeId id) const {
+  double Error_m(KeyframeId id) {
     const Keyframe& keyframe = map().GetKeyframe(id);
     const auto i = static_cast<int>(keyframe.stamp_ns);
     const RigidTransform truth = world_.Truth(i) * world_.Truth(0).Inverse();
