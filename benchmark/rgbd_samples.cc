@@ -69,8 +69,9 @@ void RgbdSampleSource::ReadFolder(const std::filesystem::path& folder) {
   sequence_.emplace(folder, camera_);
   const Trajectory truth = LoadTrajectory(folder / "groundtruth.txt");
   for (std::size_t i = 0; i < sequence_->size(); ++i) {
-    const auto pose = InterpolatePose(truth, sequence_->entries()[i].color.stamp_ns, kMaxGap_ns);
-    if (pose) entries_.push_back({i, *pose});
+    const std::int64_t stamp_ns = sequence_->entries()[i].color.stamp_ns;
+    const auto pose = InterpolatePose(truth, stamp_ns, kMaxGap_ns);
+    if (pose) entries_.push_back({i, stamp_ns, *pose});
   }
 }
 
@@ -78,15 +79,21 @@ void RgbdSampleSource::MakeSyntheticPoses() {
   for (std::size_t i = 0; i < 60; ++i) {
     const double t = static_cast<double>(i) / 30;
     const Eigen::Vector3d axis_angle(0.1 * std::sin(t), 0.15 * std::sin(1.3 * t), 0.4 * t);
-    entries_.push_back({i, {ExpSo3(axis_angle), Eigen::Vector3d(0.3 * t, 0.1 * t, 0.2 * t)}});
+    entries_.push_back({i,
+                        static_cast<std::int64_t>(i) * 1'000'000'000 / 30,
+                        {ExpSo3(axis_angle), Eigen::Vector3d(0.3 * t, 0.1 * t, 0.2 * t)}});
   }
 }
 
 RgbdSample RgbdSampleSource::Read(int index) const {
   const Entry& entry = entries_.at(index);
-  if (!sequence_) return RenderWall(texture_, camera_, entry.world_from_camera);
+  if (!sequence_) {
+    RgbdSample sample = RenderWall(texture_, camera_, entry.world_from_camera);
+    sample.stamp_ns = entry.stamp_ns;
+    return sample;
+  }
   const RgbdFrame frame = sequence_->Load(entry.frame);
-  return {frame.gray, frame.depth_m, entry.world_from_camera};
+  return {entry.stamp_ns, frame.gray, frame.depth_m, entry.world_from_camera};
 }
 
 }  // namespace ofm

@@ -1,6 +1,7 @@
 // Frames with depth and true poses for benchmarks.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -12,6 +13,7 @@
 namespace ofm {
 
 struct RgbdSample {
+  std::int64_t stamp_ns = 0;
   cv::Mat gray;     ///< CV_8UC1
   cv::Mat depth_m;  ///< CV_32FC1 [m], 0 = not measured
   RigidTransform world_from_camera;
@@ -31,6 +33,7 @@ class RgbdSampleSource {
  private:
   struct Entry {
     std::size_t frame;  ///< of the sequence
+    std::int64_t stamp_ns;
     RigidTransform world_from_camera;
   };
   void ReadFolder(const std::filesystem::path& folder);

@@ -10,5 +10,6 @@ void AddEvaluateCommand(CLI::App& app);
 void AddEvaluateMapCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);
+void AddVocabularyCommand(CLI::App& app);
 
 }  // namespace ofm

@@ -42,6 +42,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddEvaluateMapCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddModelsCommand(app);
+  ofm::AddVocabularyCommand(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

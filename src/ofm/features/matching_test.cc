@@ -2,25 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "ofm/base/random.h"
 #include "ofm/features/hamming.h"
+#include "ofm/features/test_descriptors.h"
 
 namespace ofm {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-Descriptor RandomDescriptor(RandomEngine& engine) {
-  return {engine(), engine(), engine(), engine()};
-}
-
-std::vector<Descriptor> RandomDescriptors(int count, std::uint64_t seed) {
-  RandomEngine engine = MakeRandomEngine(seed, 0);
-  std::vector<Descriptor> descriptors;
-  for (int i = 0; i < count; ++i) descriptors.push_back(RandomDescriptor(engine));
-  return descriptors;
-}
 
 /// With its lowest `bits` bits turned.
 Descriptor WithBitsTurned(Descriptor descriptor, int bits) {
