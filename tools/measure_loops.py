@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the program over sequences with loop closing off and on, and holds every loop against ground truth.
 
-Usage: tools/measure_loops.py [--seeds N] [--program P] SEQUENCE... [-- ARGUMENTS OF ofm-slam run]
+Usage: tools/measure_loops.py [--seeds N] [--loops on] [--program P] SEQUENCE... [-- ARGUMENTS OF ofm-slam run]
 Prints for each run: error of the trajectory [cm], coverage, map, loops closed and candidates rejected; and
 for each loop by how much the relative pose that it claims is wrong. A false loop is wrong by decimetres.
 """
@@ -84,6 +84,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--program', default=str(ROOT / 'build/release/bin/ofm-slam'))
     parser.add_argument('--seeds', type=int, default=1)
+    parser.add_argument('--loops', choices=('both', 'on', 'off'), default='both')
     parser.add_argument('sequences', nargs='+', type=pathlib.Path)
     own, more = sys.argv[1:], []
     if '--' in own:
@@ -92,7 +93,7 @@ def main():
     for sequence in arguments.sequences:
         truth = read_truth(sequence / 'groundtruth.txt')
         for seed in range(1, arguments.seeds + 1):
-            for enabled in ('false', 'true'):
+            for enabled in {'both': ('false', 'true'), 'on': ('true',), 'off': ('false',)}[arguments.loops]:
                 with tempfile.TemporaryDirectory() as folder:
                     summary = run(arguments.program, sequence,
                                   ['--seed', str(seed), '--set', 'loop.enabled=' + enabled, *more],
