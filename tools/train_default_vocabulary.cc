@@ -124,7 +124,7 @@ int Main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
     const auto vocabulary =
-        TrainVocabulary(DescribeRooms(), VocabularyTrainingOptions(), MakeRandomEngine(kSeed, 0));
+        TrainVocabulary(DescribeRooms(), {.branching = 16, .depth = 3}, MakeRandomEngine(kSeed, 0));
     SaveVocabulary(argv[1], *vocabulary);
     fmt::print("{} words\n", vocabulary->word_count());
   } catch (const Error& error) {
