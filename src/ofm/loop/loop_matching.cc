@@ -92,6 +92,7 @@ std::vector<LoopMatch> MatchPlace(const MapSnapshot& map, const Keyframe& keyfra
     const ShownLandmarks theirs = FindShown(map, other, min_probability);
     for (const FeatureMatch& match : MatchShown(keyframe, mine, other, theirs)) {
       const Best found{theirs.landmarks[match.b], match.distance};
+      if (found.landmark == mine.landmarks[match.a]) continue;  // no news
       const auto [best, is_new] = best_of_feature.emplace(mine.features[match.a], found);
       if (!is_new && found.distance < best->second.distance) best->second = found;
     }

@@ -24,7 +24,8 @@ std::vector<LandmarkId> LandmarksOf(const MapSnapshot& map,
                                     double min_probability);
 
 /// Matches by descriptor alone between features of `keyframe` that show static landmarks and those
-/// of `place`; each feature and each landmark once. Many may be wrong.
+/// of `place`; each feature and each landmark once. Many may be wrong. Landmarks that both see say
+/// nothing new and are left out.
 std::vector<LoopMatch> MatchPlace(const MapSnapshot& map, const Keyframe& keyframe,
                                   const std::vector<KeyframeId>& place, double min_probability);
 

@@ -55,6 +55,13 @@ TEST_F(LoopMatching, EachFeatureAndEachLandmarkIsMatchedOnce) {
   EXPECT_GE(matches.size(), Match().size());
 }
 
+TEST_F(LoopMatching, LandmarksThatBothSeeAreNoMatches) {
+  const std::vector<LoopMatch> before = Match();
+  made_.map.Fuse(Last().landmarks[before[0].feature], before[0].landmark);
+  EXPECT_EQ(Match().size(), before.size() - 1);
+  EXPECT_NE(Match()[0].landmark, before[0].landmark);
+}
+
 TEST_F(LoopMatching, MovingLandmarksOfEitherSideAreNotMatched) {
   const std::vector<LoopMatch> before = Match();
   MakeMoving(before[0].landmark);

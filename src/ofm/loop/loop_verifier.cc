@@ -84,7 +84,8 @@ LoopVerification VerifyLoop(const MapSnapshot& map, KeyframeId keyframe_id, Keyf
 
   std::vector<Landmark> landmarks;
   for (const LandmarkId id : LandmarksOf(map, about, min_probability)) {
-    landmarks.push_back(*map.landmarks.Find(id));
+    const Landmark& landmark = *map.landmarks.Find(id);
+    if (landmark.FeatureIn(keyframe_id) < 0) landmarks.push_back(landmark);
   }
   // Twice: the first pose comes from few matches, and its search misses what is far from them.
   LoopSearch search{alignment->target_from_source * place.camera_from_world, kRadiusPx, kMaxHamming,

@@ -79,6 +79,18 @@ TEST(LoopVerifier, WhatMovesTakesNoPart) {
             LoopVerdict::kVerified);
 }
 
+TEST(LoopVerifier, WhatBothSeeAnywayProvesNothing) {
+  Round round;
+  const LoopVerification before = round.Verify(round.last, round.first);
+  const Keyframe last = round.made.map.GetKeyframe(round.last);
+  for (int i = 0; i < 10; ++i) {
+    const LoopMatch& match = before.loop->matches[i];
+    round.made.map.Fuse(last.landmarks[match.feature], match.landmark);
+  }
+  const LoopVerification after = round.Verify(round.last, round.first);
+  EXPECT_LE(after.loop->matches.size(), before.loop->matches.size() - 10);
+}
+
 TEST(LoopVerifier, FewerInliersThanAskedForAreNoLoop) {
   Round round;
   EXPECT_EQ(round.Verify(round.last, round.first, {.min_inliers = 1000}).verdict,
