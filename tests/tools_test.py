@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'tools')
 import check_layers  # noqa: E402
 import check_rules  # noqa: E402
 import check_sizes  # noqa: E402
+import cover_camera  # noqa: E402
 import measure_loops  # noqa: E402
 import rearrange_sequence  # noqa: E402
 
@@ -167,6 +168,36 @@ class Loops(unittest.TestCase):
         self.assertIn('wrong by 0.000 m, 0.00 deg', measure_loops.loop_line(loop, truth))
         loop['place_from_keyframe'][0] = 1.5
         self.assertIn('wrong by 0.500 m', measure_loops.loop_line(loop, truth))
+
+
+class CoverCamera(MadeTree):
+
+    def setUp(self):
+        super().setUp()
+        self.grey = cover_camera.black_png((4, 3), 16, 0)
+        for name in ('rgb', 'depth'):
+            self.write(f'desk/{name}.txt', '# stamp file\n' + ''.join(
+                f'{i / 10:.6f} {name}/{i}.png\n' for i in range(10)))
+            for i in range(10):
+                self.write(f'desk/{name}/{i}.png', '')
+                (self.root / f'desk/{name}/{i}.png').write_bytes(self.grey)
+        self.write('desk/groundtruth.txt', 'truth\n')
+
+    def covered(self, name):
+        return [i for i in range(10) if not (self.root / f'out/{name}/{i}.png').is_symlink()]
+
+    def test_covers_both_images_of_the_frames_in_the_middle(self):
+        cover_camera.cover(self.root / 'desk', self.root / 'out', None, 4)
+        self.assertEqual(self.covered('rgb'), [3, 4, 5, 6])
+        self.assertEqual(self.covered('depth'), [3, 4, 5, 6])
+        self.assertEqual((self.root / 'out/groundtruth.txt').read_text(), 'truth\n')
+        self.assertEqual((self.root / 'out/depth/4.png').read_bytes(), self.grey)
+        self.assertEqual(cover_camera.png_size(self.root / 'out/rgb/4.png'), (4, 3))
+
+    def test_covers_the_frames_that_are_named_again_and_again(self):
+        for first in (2, 7):
+            cover_camera.cover(self.root / 'desk', self.root / 'out', first, 2)
+            self.assertEqual(self.covered('rgb'), [first, first + 1])
 
 
 if __name__ == '__main__':

@@ -2,8 +2,10 @@
 """Runs every scenario with every mode of culling and every segmenter and prints docs/results.md's table.
 
 Usage: tools/measure_dynamics.py --shared ../shared --sequences sequences [--seeds 5] [--only WORD ...]
+A network runs once per scenario (run --write-masks into --masks), and the runs of all modes and seeds go by what
+it found: the results are the same bytes as with the network itself, and its time is added to theirs.
 Each finished run is kept in --record (JSON lines): a run that is there already is not made again, so that an
-interrupted measurement goes on where it ended. Delete the file after a change of the program.
+interrupted measurement goes on where it ended. Delete both after a change of the program.
 The composed sequences are made by ../shared/tools/compose_dynamic.py (see ../shared/README.md).
 """
 import argparse
@@ -18,56 +20,76 @@ import measure_results
 SCENARIOS = ('desk_walking', 'desk_standing', 'desk_box', 'desk_crowded')
 MODES = ('off', 'paper', 'full')
 STATIC = 'tum_fr1_desk'
+FRONT_STAGES = ('image_pyramid', 'optical_flow', 'dense_flow', 'dynamics', 'features', 'tracking')
 
 
-def segmenters(shared):
-    """Arguments by name; networks take longest and come last."""
-    def network(file):
-        return ['--segmenter', 'yolo-seg', '--model', str(shared / 'models' / file)]
-    return {
-        'none': ['--segmenter', 'none'],
-        'true masks': ['--segmenter', 'masks'],
-        'yolov8n 256x320': network('yolov8n-seg_256x320.onnx'),
-        'yolo11n 384x512': network('yolo11n-seg_384x512.onnx'),
-        'yolov8n 480x640': network('yolov8n-seg_480x640.onnx'),
-    }
+def segmenters(with_all):
+    """The network's file by the segmenter's name; empty where there is none. Networks come last."""
+    kinds = {'none': '', 'true masks': '', 'yolov8n 256x320': 'yolov8n-seg_256x320',
+             'yolo11n 384x512': 'yolo11n-seg_384x512'}
+    if with_all:
+        kinds['yolov8n 480x640'] = 'yolov8n-seg_480x640'
+    return kinds
 
 
-def configurations(shared):
-    """(scenario, mode, segmenter, arguments); nothing is segmented for mode off, which ignores it."""
-    kinds = segmenters(shared)
-    yield STATIC, 'full', 'none', kinds['none']
-    for segmenter, arguments in kinds.items():
+def configurations(with_all):
+    """(scenario, mode, segmenter); nothing is segmented for mode off, which ignores it."""
+    yield STATIC, 'full', 'none'
+    for segmenter in segmenters(with_all):
         for scenario in SCENARIOS:
             for mode in MODES:
                 if mode != 'off' or segmenter == 'none':
-                    yield scenario, mode, segmenter, ['--dynamics', mode, *arguments]
+                    yield scenario, mode, segmenter
 
 
-def figures(summary):
-    """What the table needs of a run's summary."""
+def run_network(bench, scenario, network):
+    """Writes a network's masks of a scenario; returns their folder. A finished one is not made again."""
+    folder = bench.masks / network / scenario
+    if not (folder / 'summary.json').exists():
+        arguments = ['--segmenter', 'yolo-seg', '--model', str(bench.shared / 'models' / f'{network}.onnx'),
+                     '--dynamics', 'off', '--write-masks', str(folder), '--set', 'build_semantic_map=false']
+        with tempfile.TemporaryDirectory() as output:
+            summary = measure_results.run(bench.program, bench.sequences / scenario, arguments, 0, pathlib.Path(output))
+        (folder / 'summary.json').write_text(json.dumps(summary))
+    return folder
+
+
+def figures(summary, network_summary):
+    """What the table needs of a run's summary; the time of reading masks is replaced by the network's."""
     stages = summary['stages']
-    front = sum(stages[s]['cpu']['median_ms'] for s in ('optical_flow', 'dynamics', 'features', 'tracking')
-                if s in stages)
+    front = sum(stages[s]['cpu']['median_ms'] for s in FRONT_STAGES if s in stages)
     culling = summary.get('culling', {})
+    process_ms = 1e3 * summary['process_cpu_s'] / summary['counts']['frames']
+    segmentation = stages['segmentation']['cpu']
+    if network_summary:
+        process_ms -= segmentation['mean_ms']
+        segmentation = network_summary['stages']['segmentation']['cpu']
+        process_ms += segmentation['mean_ms']
     return {'ate_cm': 100 * summary['trajectory']['ate']['translation_m']['rmse'],
             'coverage': summary['counts']['tracked_share'],
-            'front_ms': front,
-            'segmentation_ms': stages.get('segmentation', {}).get('cpu', {}).get('median_ms', 0),
-            'process_ms': 1e3 * summary['process_cpu_s'] / summary['counts']['frames'],
+            'reckoned': summary['counts']['frames_reckoned'],
+            'front_ms': front, 'segmentation_ms': segmentation['median_ms'], 'process_ms': process_ms,
             'actor_in_pose': culling.get('actor_share_in_pose'),
             'static_kept': culling.get('static_share_kept')}
 
 
-def measure(program, shared, sequences, configuration, seed):
-    scenario, mode, segmenter, more = configuration
-    sequence = shared / 'data' / STATIC if scenario == STATIC else sequences / scenario
-    arguments = [*more, '--set', 'build_semantic_map=false']
+def measure(bench, configuration, seed):
+    scenario, mode, segmenter = configuration
+    sequence = bench.shared / 'data' / STATIC if scenario == STATIC else bench.sequences / scenario
+    network = segmenters(True)[segmenter]
+    arguments = ['--dynamics', mode, '--set', 'build_semantic_map=false']
+    arguments += ['--segmenter', 'none' if segmenter == 'none' else 'masks']
+    network_summary = None
+    if network:
+        folder = bench.masks / network / scenario
+        arguments += ['--set', f'perception.masks_folder={folder}']
+        network_summary = json.loads((folder / 'summary.json').read_text())
     if scenario != STATIC:
         arguments += ['--true-masks', str(sequence / 'mask')]
-    with tempfile.TemporaryDirectory() as folder:
-        summary = measure_results.run(program, sequence, arguments, seed, pathlib.Path(folder) / 'out')
-    return {'scenario': scenario, 'mode': mode, 'segmenter': segmenter, 'seed': seed, **figures(summary)}
+    with tempfile.TemporaryDirectory() as output:
+        summary = measure_results.run(bench.program, sequence, arguments, seed, pathlib.Path(output))
+    return {'scenario': scenario, 'mode': mode, 'segmenter': segmenter, 'seed': seed,
+            **figures(summary, network_summary)}
 
 
 def row(key, runs, static_cm):
@@ -106,6 +128,8 @@ def main():
     parser.add_argument('--sequences', type=pathlib.Path, default=measure_results.ROOT / 'sequences')
     parser.add_argument('--seeds', type=int, default=5)
     parser.add_argument('--jobs', type=int, default=2, help='runs at a time')
+    parser.add_argument('--masks', type=pathlib.Path, default=pathlib.Path('dynamics_masks'))
+    parser.add_argument('--all', action='store_true', help='with yolov8n 480x640 too')
     parser.add_argument('--record', type=pathlib.Path, default=pathlib.Path('dynamics_runs.jsonl'))
     parser.add_argument('--only', nargs='*', help='configurations with all of these words (scenario, mode, segmenter)')
     arguments = parser.parse_args()
@@ -113,12 +137,13 @@ def main():
     if arguments.record.exists():
         runs = [json.loads(line) for line in arguments.record.read_text().splitlines()]
     done = {(r['scenario'], r['mode'], r['segmenter'], r['seed']) for r in runs}
-    wanted = [(c, seed) for seed in range(1, arguments.seeds + 1) for c in configurations(arguments.shared)
-              if (*c[:3], seed) not in done
-              and all(any(word in part for part in c[:3]) for word in arguments.only or [])]
+    wanted = [(c, seed) for seed in range(1, arguments.seeds + 1) for c in configurations(arguments.all)
+              if (*c, seed) not in done
+              and all(any(word in part for part in c) for word in arguments.only or [])]
+    networks = sorted({(c[0], segmenters(True)[c[2]]) for c, _ in wanted if segmenters(True)[c[2]]})
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool, arguments.record.open('a') as record:
-        futures = [pool.submit(measure, arguments.program, arguments.shared, arguments.sequences, c, seed)
-                   for c, seed in wanted]
+        list(pool.map(lambda network: run_network(arguments, *network), networks))
+        futures = [pool.submit(measure, arguments, c, seed) for c, seed in wanted]
         for future in concurrent.futures.as_completed(futures):
             runs.append(future.result())
             record.write(json.dumps(runs[-1]) + '\n')

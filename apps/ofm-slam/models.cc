@@ -13,7 +13,7 @@
 #include "known_models.h"
 #include "ofm/base/error.h"
 #include "ofm/io/atomic_file.h"
-#include "sha256.h"
+#include "ofm/io/sha256.h"
 
 namespace ofm {
 namespace {

@@ -23,6 +23,8 @@ const char* StatusName(TrackingStatus status) {
       return "tracking";
     case TrackingStatus::kRelocalized:
       return "relocalised";
+    case TrackingStatus::kReckoned:
+      return "reckoning";
     case TrackingStatus::kLost:
       return "LOST";
   }

@@ -23,12 +23,15 @@ constexpr const char* kFooter =
     "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam run desk_walking --segmenter masks --output out\n"
     "  ofm-slam run desk_walking --segmenter yolo-seg --model yolov8n-seg.onnx --output out\n"
-    "  ofm-slam run desk --threaded --set features.count=1500 --seed 3 --output out";
+    "  ofm-slam run desk --threaded --set features.count=1500 --seed 3 --output out\n"
+    "  ofm-slam run desk --save-map desk.ofm\n"
+    "  ofm-slam run desk_later --load-map desk.ofm --localize-only";
 
 struct RunArguments {
   RunSettings settings;
   OptionArguments options;
   bool print_config = false;
+  bool localize_only = false;
 };
 
 void Run(RunArguments& arguments) {
@@ -39,6 +42,7 @@ void Run(RunArguments& arguments) {
     fmt::print("{}", PrintOptionsYaml(OptionFields(arguments.settings.options)));
     return;
   }
+  if (arguments.localize_only) arguments.settings.options.localize_only = true;
   if (arguments.settings.sequence.empty()) throw Error("name a SEQUENCE folder to run on");
   const InterruptStop interrupt;
   const RunReport report = RunSession(arguments.settings, interrupt.token());
@@ -71,8 +75,21 @@ void AddRunCommand(CLI::App& app) {
                     "Play at the recorded pace, threaded, and drop frames that come too early");
   command->add_option("--true-masks", settings.true_masks,
                       "Folder of true instance masks (PNG): culling is measured against them");
+  command->add_option("--write-masks", settings.write_masks,
+                      "Folder for each frame's instances (JSON), which --segmenter masks reads: a\n"
+                      "slow network then runs once for many runs");
   command->add_option("--debug-video", settings.debug_video,
                       "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
+  CLI::Option* load = command->add_option("--load-map", settings.load_map,
+                                          "Map file of an earlier run to go on with");
+  CLI::Option* save =
+      command->add_option("--save-map", settings.save_map,
+                          "Map file to write at the end, for --load-map; may replace an older one");
+  command
+      ->add_flag("--localize-only", arguments->localize_only,
+                 "Only follow the camera in the loaded map, which stays as it is")
+      ->needs(load)
+      ->excludes(save);
   command->add_option("--start", settings.range.first, "First frame")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--frames", settings.range.max_count, "Frames at most")

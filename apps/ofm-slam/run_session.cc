@@ -6,13 +6,18 @@
 #include <memory>
 
 #include "debug_video.h"
+#include "mask_writer.h"
 #include "ofm/base/error.h"
+#include "ofm/base/time.h"
+#include "ofm/io/atomic_file.h"
 #include "ofm/io/camera_file.h"
 #include "ofm/io/prefetching_source.h"
 #include "ofm/io/trajectory_file.h"
+#include "ofm/map/map_file.h"
 #include "ofm/perception/make_segmenter.h"
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
+#include "ofm/pipeline/trajectory_log.h"
 #include "progress_bar.h"
 
 namespace ofm {
@@ -79,6 +84,46 @@ std::string FormatLoops(const RunOutcome& outcome) {
       counts.no_alignment, counts.few_inliers);
 }
 
+MapSettings SettingsOfMap(const PinholeCamera& camera, const OrbOptions& features) {
+  return {camera, features.levels, features.scale_factor};
+}
+
+/// Null where no map is to be loaded.
+std::shared_ptr<const MapSnapshot> LoadStartMap(const RunSettings& settings,
+                                                const PinholeCamera& camera) {
+  if (settings.load_map.empty()) return nullptr;
+  const StoredMap stored = LoadMap(settings.load_map);
+  RequireSameSettings(settings.load_map, stored.settings,
+                      SettingsOfMap(camera, settings.options.features));
+  return stored.map;
+}
+
+/// Errors in the world of `map`, where the ground truth is known for its keyframes too.
+std::optional<TrajectoryEvaluation> EvaluateInMap(std::optional<Truth> truth,
+                                                  const MapSnapshot* map,
+                                                  const Trajectory& estimate) {
+  if (!truth || map == nullptr) return {};
+  try {
+    truth->options.truth_from_estimate =
+        ComputeAte(KeyframeTrajectory(*map), truth->trajectory).truth_from_estimate;
+  } catch (const Error&) {
+    return {};  // the map is of another time
+  }
+  return Evaluate(truth, estimate);
+}
+
+void SaveFinalMap(const RunSettings& settings, const PinholeCamera& camera, RunReport& report) {
+  if (settings.save_map.empty()) return;
+  if (!report.outcome.map_is_whole) {
+    throw Error(settings.save_map, "is not written: an error cut mapping short (" +
+                                       report.outcome.error + "); other results are in " +
+                                       settings.output.string());
+  }
+  const std::int64_t start_ns = SteadyTimeNs();
+  SaveMap(settings.save_map, *report.outcome.map, SettingsOfMap(camera, settings.options.features));
+  report.map_saving_s = NanosecondsToSeconds(SteadyTimeNs() - start_ns);
+}
+
 }  // namespace
 
 RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
@@ -89,13 +134,19 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   Source source = OpenSource(settings, sequence);
   std::optional<CullingMeter> meter;
   if (!settings.true_masks.empty()) meter.emplace(settings.true_masks, settings.options.features);
+  const std::shared_ptr<const MapSnapshot> start_map = LoadStartMap(settings, camera);
   PrepareOutputFolder(settings.output);
+  if (!settings.save_map.empty()) RequireWritable(settings.save_map);
 
   std::optional<DebugVideo> video;
   if (!settings.debug_video.empty()) {
     video.emplace(settings.debug_video, segmenter->class_names());
   }
-  Slam slam(camera, settings.options, std::move(segmenter));
+  std::optional<MaskWriter> mask_writer;
+  if (!settings.write_masks.empty()) {
+    mask_writer.emplace(settings.write_masks, segmenter->class_names());
+  }
+  Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
     ProgressBar progress(source.frames->size());
@@ -103,6 +154,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (!settings.quiet) context.observers.push_back(&progress);
     if (video) context.observers.push_back(&*video);
     if (meter) context.observers.push_back(&*meter);
+    if (mask_writer) context.observers.push_back(&*mask_writer);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -115,11 +167,16 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   report.description.version = OFM_VERSION;
   report.description.input = settings.sequence.string();
   report.description.runner = settings.threaded || settings.realtime ? "threaded" : "sequential";
+  report.description.loaded_map = settings.load_map.string();
+  report.description.saved_map = settings.save_map.string();
   report.description.camera = camera;
   if (meter) report.description.culling = meter->counts();
   report.description.evaluation = Evaluate(truth, report.outcome.trajectory);
   report.description.live_evaluation = Evaluate(truth, report.outcome.live_trajectory);
+  report.description.evaluation_in_map =
+      EvaluateInMap(truth, start_map.get(), report.outcome.trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
+  SaveFinalMap(settings, camera, report);
   return report;
 }
 
@@ -136,9 +193,22 @@ std::string FormatSummary(const RunReport& report) {
                       counts.keyframes, counts.keyframes_made, counts.landmarks,
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
   text += FormatLoops(outcome);
+  const RunDescription& description = report.description;
+  if (!description.loaded_map.empty()) {
+    text += fmt::format("loaded map  {}{}\n", description.loaded_map,
+                        counts.frames_tracked > 0
+                            ? ""
+                            : ": its place was never recognised, nothing was added to it");
+  }
+  if (!description.saved_map.empty()) {
+    text +=
+        fmt::format("saved map   {}, {:.1f} MB in {:.2f} s\n", description.saved_map,
+                    1e-6 * static_cast<double>(std::filesystem::file_size(description.saved_map)),
+                    report.map_saving_s);
+  }
   text += fmt::format("culling     {:.1f} % of the pixels masked on average\n",
                       100 * counts.mean_masked_share);
-  if (const auto& culling = report.description.culling) {
+  if (const auto& culling = description.culling) {
     text += fmt::format(
         "            of the features on true actors {:.2f} % reach the pose, of the others {:.1f} "
         "% are kept\n",
@@ -152,13 +222,17 @@ std::string FormatSummary(const RunReport& report) {
     text += fmt::format("  {:<20} {:>6} x  median {:>8.2f} ms  p99 {:>8.2f} ms (CPU)\n", stage,
                         cpu.count, cpu.median_ms, cpu.p99_ms);
   }
-  if (report.description.evaluation) {
+  if (description.evaluation) {
     text += "\nagainst ground truth, after optimisation:\n";
-    text += FormatEvaluation(*report.description.evaluation);
+    text += FormatEvaluation(*description.evaluation);
   }
-  if (report.description.live_evaluation) {
+  if (description.evaluation_in_map) {
+    text += fmt::format("in the loaded map's world, aligned by its keyframes: ATE rmse {:.4f} m\n",
+                        description.evaluation_in_map->ate.translation_m.rmse);
+  }
+  if (description.live_evaluation) {
     text += fmt::format("as known at the time of each frame: ATE rmse {:.4f} m\n",
-                        report.description.live_evaluation->ate.translation_m.rmse);
+                        description.live_evaluation->ate.translation_m.rmse);
   }
   return text;
 }

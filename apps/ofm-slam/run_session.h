@@ -18,6 +18,9 @@ struct RunSettings {
   std::string camera = "auto";        ///< preset, file or "auto"
   std::filesystem::path true_masks;   ///< instance PNGs to measure culling against; may be empty
   std::filesystem::path debug_video;  ///< .avi or folder; may be empty
+  std::filesystem::path write_masks;  ///< folder; may be empty
+  std::filesystem::path load_map;     ///< to go on with, or to localise in; may be empty
+  std::filesystem::path save_map;     ///< to be written at the end; may be empty
   FrameRange range;
   bool threaded = false;
   bool realtime = false;  ///< at the recorded pace; frames that come too early are dropped
@@ -28,6 +31,7 @@ struct RunSettings {
 struct RunReport {
   RunOutcome outcome;
   RunDescription description;
+  double map_saving_s = 0;
 };
 
 /// Opens the sequence, runs the system and writes all results. Bad input is reported before

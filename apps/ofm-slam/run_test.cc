@@ -54,6 +54,17 @@ TEST(Run, MeasuresCullingAgainstTrueMasks) {
   EXPECT_GT(culling["static_share_kept"], 0.7);
 }
 
+TEST(Run, OnWrittenMasksGivesTheSameBytes) {
+  const TestRecording recording(8);
+  const auto folder = recording.output() / "written";
+  ASSERT_EQ(recording.Run("--segmenter masks --write-masks " + folder.string()).exit_code, 0);
+  const std::string first = ReadFile(recording.output() / "trajectory.txt");
+  std::filesystem::remove_all(recording.folder() / "mask");
+  const std::string again = "--segmenter masks --set perception.masks_folder=" + folder.string();
+  ASSERT_EQ(recording.Run(again).exit_code, 0);
+  EXPECT_EQ(ReadFile(recording.output() / "trajectory.txt"), first);
+}
+
 TEST(Run, TrueMasksThatAreNotThereAreAnErrorBeforeTheRun) {
   const TestRecording recording(3);
   const ProgramResult result = recording.Run("--true-masks /nowhere/masks");

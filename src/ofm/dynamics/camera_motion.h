@@ -21,7 +21,9 @@ struct LatticePair {
 struct CameraMotion {
   RigidTransform last_from_current;
   double inlier_share = 0;   ///< of the points used
-  bool is_measured = false;  ///< false: the prediction, for lack of points
+  bool is_measured = false;  ///< false: the prediction, for lack of points or of agreement
+  /// Enough points, but hardly any agree: the camera did anything but move as predicted.
+  bool is_contradicted = false;
 };
 
 /// The pose of the last camera in the current one's frame from points of `pair.current` that have

@@ -4,6 +4,7 @@
 
 #include "ofm/dynamics/test_frames.h"
 #include "ofm/perception/dense_flow.h"
+#include "ofm/sim/normal_deviate.h"
 
 namespace ofm {
 namespace {
@@ -102,6 +103,24 @@ TEST(CameraMotion, FlowWithoutSenseGivesThePrediction) {
   const CameraMotion motion = Estimate(made, {}, options);
   EXPECT_FALSE(motion.is_measured);
   EXPECT_TRUE(motion.last_from_current.IsFinite());
+}
+
+/// Flow with an error of 1.2 px, as in a blurred image.
+TEST(CameraMotion, IsFoundInBlurredImagesByTheWiderError) {
+  MadePair made(SmallMotion());
+  MotionOptions options;
+  const double sigma_cells = 1.2 / options.cell_px;
+  RandomEngine engine = MakeRandomEngine(5, 0);
+  for (auto it = made.flow.begin<cv::Vec2f>(); it != made.flow.end<cv::Vec2f>(); ++it) {
+    for (int i = 0; i < 2; ++i) (*it)[i] += static_cast<float>(sigma_cells * NormalDeviate(engine));
+  }
+  options.camera_motion.blurred_pixel_sigma = options.camera_motion.pixel_sigma = 0.2;
+  EXPECT_FALSE(Estimate(made, SmallMotion(), options).is_measured) << "few agree to within 0.2 px";
+  options.camera_motion.blurred_pixel_sigma = 1.5;
+  const CameraMotion motion = Estimate(made, SmallMotion(), options);
+  EXPECT_TRUE(motion.is_measured);
+  EXPECT_GT(motion.inlier_share, 0.9);
+  EXPECT_LT(ErrorOf_m(motion, SmallMotion()), 0.02);
 }
 
 /// Rendered frames with the noise of the sensor; the bounds are twice what was measured.

@@ -123,7 +123,8 @@ void FullDynamics::JudgeInstances(const MotionVerdict& verdict, double elapsed_s
 cv::Mat FullDynamics::MaskOf(const MotionVerdict& verdict, const LatticeFrame& lattice_frame,
                              const RgbdFrame& frame, const Segmentation& segmentation) const {
   const IdealLattice& cells = judge_.lattice().cells();
-  cv::Mat moving = UpsampleMask(cells, verdict.belief > 0, lattice_frame.depth_m, frame.depth_m);
+  cv::Mat moving = UpsampleMask(cells, verdict.belief > options_.motion.belief.verdict,
+                                lattice_frame.depth_m, frame.depth_m);
   for (const InstanceTrack& track : tracks_.tracks) {
     if (MotionOf(track) > 0) moving.setTo(255, track.instance.mask);
   }

@@ -160,7 +160,7 @@ InstanceTracks TrackInstances(const InstanceTracks& before, const InstanceObserv
     after.tracks.push_back(std::move(track));
   }
   for (std::size_t j = 0; j < detections.size(); ++j) {
-    if (taken[j] != 0) continue;
+    if (taken[j] != 0 || detections[j].instance->score < options.birth_score) continue;
     InstanceTrack track;
     track.instance.id = InstanceId(after.next_id++);
     track.state = StartBox(detections[j].measurement, options.filter);

@@ -17,6 +17,7 @@ struct InstanceTrackerOptions {
   BoxFilterOptions filter = {};
   double max_missed_s = 0.4;       ///< a track is bridged for so long
   int min_hits = 2;                ///< detections that a track needs to be bridged
+  double birth_score = 0.5;        ///< under it a detection only continues a track
   double iou_weight = 1;           ///< of 1 − overlap with the predicted box
   double centre_weight = 1;        ///< of the distance of the centres / the box's diagonal
   double depth_weight = 0.5;       ///< of the difference in depth [1/m]
@@ -29,6 +30,8 @@ struct InstanceTrackerOptions {
     visit("filter", self.filter, "Kalman filter of the boxes");
     visit("max_missed_s", self.max_missed_s, "a track is bridged for so long [s]", Range{0, 100});
     visit("min_hits", self.min_hits, "detections that a track needs to be bridged", Range{1, 1000});
+    visit("birth_score", self.birth_score, "under this score a detection only continues a track",
+          Range{0, 1});
     visit("iou_weight", self.iou_weight, "of 1 - overlap with the predicted box", Range{0, 100});
     visit("centre_weight", self.centre_weight, "of the centres' distance / the box's diagonal",
           Range{0, 100});
@@ -73,9 +76,11 @@ struct InstanceObservation {
 
 /// The tracks after an observation: a pure function. Detections are matched with the predicted
 /// boxes of tracks of their class (Hungarian method on overlap, distance and depth); the others
-/// begin tracks. A track that is missed keeps its mask, moved as the filter predicts and trimmed to
-/// the predicted depth, until max_missed_s have passed or it has left the image. Observations come
-/// in increasing order of time. After Hu et al., "CFP-SLAM", 2022, section III-B.
+/// begin tracks where their score is at least birth_score (as in Zhang et al., "ByteTrack", 2022: a
+/// doubtful detection of what is known is worth having, one of something new is not). A track that
+/// is missed keeps its mask, moved as the filter predicts and trimmed to the predicted depth, until
+/// max_missed_s have passed or it has left the image. Observations come in increasing order of
+/// time. After Hu et al., "CFP-SLAM", 2022, section III-B.
 InstanceTracks TrackInstances(const InstanceTracks& before, const InstanceObservation& now,
                               const InstanceTrackerOptions& options);
 

@@ -59,6 +59,19 @@ double Iou(const cv::Mat& mask, const cv::Rect& box) {
   return cv::countNonZero(mask & truth) / static_cast<double>(cv::countNonZero(mask | truth));
 }
 
+TEST(InstanceTracker, DoubtfulDetectionContinuesATrackButBeginsNone) {
+  View doubtful({Walker(1)});
+  doubtful.instances[0].score = 0.3F;
+  EXPECT_TRUE(Track({}, doubtful).tracks.empty());
+  const InstanceTracks known = Track({}, View({Walker(0)}));
+  const InstanceTracks after = Track(known, doubtful);
+  ASSERT_EQ(after.tracks.size(), 1U);
+  EXPECT_EQ(after.tracks[0].hits, 2);
+  InstanceTrackerOptions trusting;
+  trusting.birth_score = 0.3;
+  EXPECT_EQ(Track({}, doubtful, trusting).tracks.size(), 1U);
+}
+
 TEST(InstanceTracker, AWalkerKeepsHisIdAndHisMask) {
   InstanceTracks tracks;
   for (int i = 0; i < 10; ++i) {

@@ -10,8 +10,10 @@ namespace {
 /// Depth that may be the same surface a frame later.
 constexpr float kSameDepth_m = 0.15F;
 
+/// Where depth begins or ends, so does a surface.
 bool MayBeSame(float a_m, float b_m) {
-  return a_m == 0 || b_m == 0 || std::abs(a_m - b_m) < kSameDepth_m;
+  if (a_m == 0 || b_m == 0) return a_m == b_m;
+  return std::abs(a_m - b_m) < kSameDepth_m;
 }
 
 /// How strongly two neighbours are tied, 0 to 1.

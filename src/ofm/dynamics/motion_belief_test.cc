@@ -56,12 +56,14 @@ TEST(CarryBelief, IsDroppedWhereTheDepthIsAnother) {
   EXPECT_EQ(cv::countNonZero(carried(cv::Rect(10, 0, 10, 12))), 0);
 }
 
-TEST(CarryBelief, IsKeptWhereOneOfTheDepthsIsUnknown) {
+TEST(CarryBelief, IsKeptWithoutDepthButDroppedWhereDepthBeginsOrEnds) {
   const LatticeFrame known = FrameOfDepth(2), unknown = FrameOfDepth(0);
   for (const auto& [last, current] : {std::pair(known, unknown), std::pair(unknown, known)}) {
     const cv::Mat carried = CarryBelief(Plain(2), last, current, FlowOf(0, 0), kOptions);
-    EXPECT_EQ(cv::countNonZero(Where(carried, 1)), kSize.area());
+    EXPECT_EQ(cv::countNonZero(carried), 0);
   }
+  const cv::Mat carried = CarryBelief(Plain(2), unknown, unknown, FlowOf(0, 0), kOptions);
+  EXPECT_EQ(cv::countNonZero(Where(carried, 1)), kSize.area());
 }
 
 TEST(RelaxBelief, WithoutCouplingOrIterationsItIsTheEvidence) {

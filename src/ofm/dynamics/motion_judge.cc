@@ -28,8 +28,13 @@ MotionVerdict MotionJudge::Process(const MotionInput& input, MotionState& state)
     const RigidTransform& last_from_current = verdict.camera_motion.last_from_current;
     state.velocity = LogSe3(last_from_current.Inverse()) / elapsed_s;
     state.camera_from_start = last_from_current.Inverse() * state.camera_from_start;
-    verdict.flow_evidence = FlowEvidence(lattice_.camera(), pair, last_from_current, options_);
-    evidence += verdict.flow_evidence;
+    if (verdict.camera_motion.is_contradicted) {
+      // Against a motion that is known to be wrong, the whole room would move.
+      state.memory = DepthMemory();
+    } else {
+      verdict.flow_evidence = FlowEvidence(lattice_.camera(), pair, last_from_current, options_);
+      evidence += verdict.flow_evidence;
+    }
   } else {
     state = MotionState();
   }

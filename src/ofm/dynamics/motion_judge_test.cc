@@ -151,6 +151,22 @@ TEST_F(MotionJudgeTest, CameraIsCarriedOnWhereNothingCanBeMeasured) {
   EXPECT_TRUE(Process(frames_[6], state_, 6).camera_motion.is_measured) << "and found again";
 }
 
+/// The last frame mirrored: flow finds nothing that hangs together.
+TEST_F(MotionJudgeTest, NothingIsSaidAgainstAMotionThatFlowContradicts) {
+  ProcessUpTo(7, state_);
+  EXPECT_GT(state_.memory.size(), 1U);
+  LatticeFrame mirrored = frames_[8];
+  for (cv::Mat* image : {&mirrored.gray, &mirrored.depth_m, &mirrored.texture}) {
+    cv::Mat flipped;
+    cv::flip(*image, flipped, -1);
+    *image = flipped;
+  }
+  const MotionVerdict verdict = Process(mirrored, state_, 8);
+  EXPECT_TRUE(verdict.camera_motion.is_contradicted);
+  EXPECT_TRUE(verdict.flow_evidence.empty());
+  EXPECT_EQ(state_.memory.size(), 1U) << "earlier views are from places that are only guessed";
+}
+
 /// The same depth with the stamp of the next frame: taken from the camera's later place.
 TEST_F(MotionJudgeTest, DepthIsPlacedWhereTheCameraWasWhenItWasTaken) {
   ProcessUpTo(4, state_);

@@ -7,9 +7,11 @@ namespace ofm {
 
 /// The camera's own motion between two frames, by flow on what is believed static.
 struct CameraMotionOptions {
-  int block_cells = 4;          ///< one point is taken of each block of this side
-  double pixel_sigma = 0.5;     ///< of the flow [px]
-  double doubtful_share = 0.5;  ///< fewer inliers: RANSAC is asked as well
+  int block_cells = 4;               ///< one point is taken of each block of this side
+  double pixel_sigma = 0.5;          ///< of the flow [px]
+  double doubtful_share = 0.5;       ///< fewer inliers: RANSAC is asked as well
+  double blurred_share = 0.25;       ///< fewer inliers still: flow is taken for blurred
+  double blurred_pixel_sigma = 1.5;  ///< of blurred flow [px]; no better than that, no motion
   int ransac_iterations = 100;
   int min_points = 30;  ///< fewer give no motion: constant velocity is assumed
 
@@ -20,6 +22,11 @@ struct CameraMotionOptions {
     visit("pixel_sigma", self.pixel_sigma, "standard deviation of the flow [px]", Range{0.05, 20});
     visit("doubtful_share", self.doubtful_share, "a smaller share of inliers: RANSAC is asked too",
           Range{0, 1});
+    visit("blurred_share", self.blurred_share,
+          "a smaller share still: flow is taken for blurred; and then: no motion is believed",
+          Range{0, 1});
+    visit("blurred_pixel_sigma", self.blurred_pixel_sigma,
+          "standard deviation of the flow in blurred images [px]", Range{0.05, 20});
     visit("ransac_iterations", self.ransac_iterations, "of RANSAC, at most", Range{1, 10000});
     visit("min_points", self.min_points, "fewer points: constant velocity is assumed",
           Range{6, 10000});
@@ -78,6 +85,7 @@ struct BeliefOptions {
   double prior_log_odds = -0.5;  ///< added in each frame: most things stand still
   double decay = 0.6;            ///< of the belief from one frame to the next
   double limit = 4;              ///< belief stays within plus and minus this
+  double verdict = 2;            ///< over which a cell is masked; below it weighs less
   double coupling = 0.25;        ///< to each neighbour of equal depth
   int iterations = 5;            ///< of relaxation
 
@@ -86,6 +94,8 @@ struct BeliefOptions {
     visit("prior_log_odds", self.prior_log_odds, "added in each frame", Range{-5, 5});
     visit("decay", self.decay, "of the belief from frame to frame", Range{0, 1});
     visit("limit", self.limit, "of the belief's absolute value", Range{0.1, 20});
+    visit("verdict", self.verdict, "belief over which a cell is masked; below it weighs less",
+          Range{-20, 20});
     visit("coupling", self.coupling, "to each neighbour of equal depth", Range{0, 1});
     visit("iterations", self.iterations, "of relaxation", Range{0, 100});
   }

@@ -34,7 +34,8 @@ RigidTransform Align(const Eigen::Matrix3Xd& source, const Eigen::Matrix3Xd& tar
 }  // namespace
 
 AteResult ComputeAte(const Trajectory& estimate, const Trajectory& groundtruth,
-                     double max_difference_s) {
+                     double max_difference_s,
+                     const std::optional<RigidTransform>& truth_from_estimate) {
   const auto pairs = Associate(estimate, groundtruth, max_difference_s);
   const auto count = static_cast<Eigen::Index>(pairs.size());
   Eigen::Matrix3Xd estimated(3, count), truth(3, count);
@@ -45,7 +46,7 @@ AteResult ComputeAte(const Trajectory& estimate, const Trajectory& groundtruth,
   }
 
   AteResult result;
-  result.truth_from_estimate = Align(estimated, truth);
+  result.truth_from_estimate = truth_from_estimate ? *truth_from_estimate : Align(estimated, truth);
   std::vector<double> errors_m;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Vector3d aligned = result.truth_from_estimate * Eigen::Vector3d(estimated.col(i));

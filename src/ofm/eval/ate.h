@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "ofm/eval/statistics.h"
@@ -26,10 +27,11 @@ struct AteResult {
 
 /// Associates both trajectories within `max_difference_s` (AssociateStamps), moves the estimate
 /// onto the ground truth by the rigid transform without scale that is best in the least-squares
-/// sense (S. Umeyama, PAMI 1991), and measures the distances that stay. Throws Error where fewer
-/// than two poses have a partner.
+/// sense (S. Umeyama, PAMI 1991), or by `truth_from_estimate` where that is known, and measures the
+/// distances that stay. Throws Error where fewer than two poses have a partner.
 AteResult ComputeAte(const Trajectory& estimate, const Trajectory& groundtruth,
-                     double max_difference_s = kMaxStampDifference_s);
+                     double max_difference_s = kMaxStampDifference_s,
+                     const std::optional<RigidTransform>& truth_from_estimate = {});
 
 /// truth_from_estimate from whole poses, for what the cameras saw: it also brings points one metre
 /// along the cameras' axes together. ComputeAte's is from positions alone, as the benchmark wants,

@@ -44,6 +44,18 @@ TEST(Ate, RecoversARigidTransform) {
   EXPECT_LT(residual.translation().norm() + residual.RotationAngle(), 1e-7);
 }
 
+TEST(Ate, MovesByAKnownTransformWhereThereIsOne) {
+  const Trajectory truth = Helix(50);
+  const RigidTransform truth_from_estimate(ExpSo3({0.4, -1, 2}), {5, 6, -7});
+  const Trajectory estimate = Moved(truth_from_estimate.Inverse(), truth);
+  const Trajectory off = Moved({Eigen::Quaterniond::Identity(), {0.3, 0, 0.4}}, estimate);
+  EXPECT_LT(ComputeAte(off, truth).translation_m.max, 1e-12) << "the best one hides it";
+  const AteResult ate = ComputeAte(off, truth, kMaxStampDifference_s, truth_from_estimate);
+  EXPECT_NEAR(ate.translation_m.min, 0.5, 1e-12);
+  EXPECT_NEAR(ate.translation_m.max, 0.5, 1e-12);
+  EXPECT_EQ(ate.truth_from_estimate.translation(), truth_from_estimate.translation());
+}
+
 TEST(AlignPoses, FindsTheRotationThatAStraightPathLeavesOpen) {
   Trajectory truth;
   for (int i = 0; i < 10; ++i) {

@@ -76,7 +76,8 @@ std::size_t CountInSpan(std::span<const std::int64_t> stamps, const Trajectory& 
 TrajectoryEvaluation EvaluateTrajectory(const Trajectory& estimate, const Trajectory& groundtruth,
                                         const EvaluationOptions& options) {
   TrajectoryEvaluation evaluation;
-  evaluation.ate = ComputeAte(estimate, groundtruth, options.max_difference_s);
+  evaluation.ate =
+      ComputeAte(estimate, groundtruth, options.max_difference_s, options.truth_from_estimate);
   const auto rpe = [&](RpePairs pairs) {
     return ComputeRpe(estimate, groundtruth, {.pairs = pairs});
   };

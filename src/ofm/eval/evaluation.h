@@ -30,6 +30,8 @@ std::size_t CountInSpan(std::span<const std::int64_t> stamps, const Trajectory& 
 struct EvaluationOptions {
   double max_difference_s = kMaxStampDifference_s;  ///< between a pose and its truth, for the ATE
   std::optional<std::size_t> frames;  ///< within the ground truth's span; gives the coverage
+  /// Where it is known, as of a map that both worlds share; else the ATE's is the best one.
+  std::optional<RigidTransform> truth_from_estimate = {};
 };
 
 struct TrajectoryEvaluation {

@@ -18,6 +18,16 @@ class RigidTransform {
   RigidTransform(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation)
       : RigidTransform(Eigen::Quaterniond(rotation), translation) {}
 
+  /// The transform with just these numbers, which another one's accessors gave: normalising again
+  /// could change the last bit.
+  static RigidTransform FromParts(const Eigen::Quaterniond& rotation,
+                                  const Eigen::Vector3d& translation) {
+    RigidTransform transform;
+    transform.rotation_ = rotation;
+    transform.translation_ = translation;
+    return transform;
+  }
+
   const Eigen::Quaterniond& rotation() const { return rotation_; }
   const Eigen::Vector3d& translation() const { return translation_; }
   Eigen::Matrix3d RotationMatrix() const { return rotation_.toRotationMatrix(); }

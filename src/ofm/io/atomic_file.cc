@@ -129,6 +129,13 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+/// Where the bytes for `path` go in the end: the target of a link.
+fs::path ResolveTarget(const fs::path& path) {
+  std::error_code failed;
+  const fs::path resolved = fs::weakly_canonical(path, failed);
+  return failed ? path : resolved;
+}
+
 /// Makes a rename in `folder` last; file systems that cannot are no error.
 void SyncFolder(const fs::path& folder) {
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
@@ -145,9 +152,7 @@ void WriteFileAtomically(const fs::path& path, const std::function<void(std::ost
   if (exists && S_ISDIR(old.st_mode)) ThrowNotWritten(path, EISDIR);
   if (exists && !S_ISREG(old.st_mode)) return WriteDirectly(path, write);
 
-  std::error_code failed;
-  const fs::path resolved = fs::weakly_canonical(path, failed);
-  const fs::path target = failed ? path : resolved;
+  const fs::path target = ResolveTarget(path);
   TemporaryFile temporary(target);
   DescriptorBuffer buffer(temporary.descriptor());
   if (exists && fchmod(buffer.descriptor(), old.st_mode & 07777) != 0) buffer.Fail();
@@ -160,6 +165,15 @@ void WriteFileAtomically(const fs::path& path, std::string_view contents) {
   WriteFileAtomically(path, [&](std::ostream& stream) {
     stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   });
+}
+
+void RequireWritable(const fs::path& path) {
+  struct stat old = {};
+  const bool exists = stat(path.c_str(), &old) == 0;
+  if (exists && S_ISDIR(old.st_mode)) ThrowNotWritten(path, EISDIR);
+  if (exists && !S_ISREG(old.st_mode)) return;
+  const TemporaryFile probe(ResolveTarget(path));
+  close(probe.descriptor());
 }
 
 }  // namespace ofm

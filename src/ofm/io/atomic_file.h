@@ -19,4 +19,8 @@ void WriteFileAtomically(const std::filesystem::path& path,
 /// The same for contents at hand.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
+/// Throws the Error that WriteFileAtomically would throw for its folder, for those who want to know
+/// before they work for long. Leaves nothing, and does not touch a file at `path`.
+void RequireWritable(const std::filesystem::path& path);
+
 }  // namespace ofm

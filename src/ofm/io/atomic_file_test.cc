@@ -133,6 +133,18 @@ TEST(AtomicFile, SaysWhatIsWrongWithTheFolder) {
               HasSubstr("cannot be written: Is a directory"));
 }
 
+TEST(AtomicFile, TellsBeforehandWhetherItCanBeWritten) {
+  const TestFolder folder;
+  const auto file = folder.Write("file", "old");
+  EXPECT_EQ(ErrorOf([&] { RequireWritable(folder.path() / "new"); }), "");
+  EXPECT_EQ(ErrorOf([&] { RequireWritable(file); }), "");
+  EXPECT_EQ(ReadFile(file), "old");
+  EXPECT_EQ(folder.CountEntries(), 1u) << "it leaves nothing";
+  EXPECT_EQ(ErrorOf([&] { RequireWritable(folder.path() / "none" / "a.txt"); }),
+            ErrorOf([&] { WriteFileAtomically(folder.path() / "none" / "a.txt", "x"); }));
+  EXPECT_THAT(ErrorOf([&] { RequireWritable(folder.path()); }), HasSubstr("Is a directory"));
+}
+
 TEST(AtomicFile, WritesBesideARelativeName) {
   const TestFolder folder;
   const auto before = std::filesystem::current_path();

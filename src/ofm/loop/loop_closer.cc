@@ -1,5 +1,7 @@
 #include "ofm/loop/loop_closer.h"
 
+#include <utility>
+
 #include "ofm/loop/static_landmarks.h"
 
 namespace ofm {
@@ -16,9 +18,8 @@ LoopCloser::LoopCloser(const MeasurementModel& model, const LoopOptions& options
 std::optional<LoopClosure> LoopCloser::Process(const MapSnapshot& map, KeyframeId id) {
   const Keyframe* keyframe = map.keyframes.Find(id);
   if (keyframe == nullptr) return {};
-  const BagOfWords words =
-      vocabulary_.Describe(StaticDescriptors(map, *keyframe, options_.min_static_probability))
-          .words;
+  LearnLoadedMap(map, id);
+  const BagOfWords words = Describe(map, *keyframe);
   if (keyframes_since_loop_ < options_.pause_keyframes) {
     ++keyframes_since_loop_;
     detector_.Add(id, words);
@@ -36,6 +37,20 @@ std::optional<LoopClosure> LoopCloser::Process(const MapSnapshot& map, KeyframeI
   ++counts_.closed;
   keyframes_since_loop_ = 0;
   return LoopClosure{std::move(*loop), std::move(*correction)};
+}
+
+/// The words of what stands still.
+BagOfWords LoopCloser::Describe(const MapSnapshot& map, const Keyframe& keyframe) const {
+  return vocabulary_.Describe(StaticDescriptors(map, keyframe, options_.min_static_probability))
+      .words;
+}
+
+/// Keyframes that were in the map before the first one that is processed.
+void LoopCloser::LearnLoadedMap(const MapSnapshot& map, KeyframeId first) {
+  if (std::exchange(knows_loaded_map_, true)) return;
+  map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    if (keyframe.id < first) detector_.Add(keyframe.id, Describe(map, keyframe));
+  });
 }
 
 /// The first candidate that geometry agrees with.

@@ -33,12 +33,15 @@ class LoopCloser {
              const Vocabulary& vocabulary, std::uint64_t seed);
 
   /// Looks for a loop at keyframe `id` of `map`; keyframes come in increasing order of id. What is
-  /// found counts as closed: the caller applies the correction.
+  /// found counts as closed: the caller applies the correction. Keyframes before the first one, of
+  /// a map that was loaded, are places too.
   std::optional<LoopClosure> Process(const MapSnapshot& map, KeyframeId id);
 
   const LoopCounts& counts() const { return counts_; }
 
  private:
+  BagOfWords Describe(const MapSnapshot& map, const Keyframe& keyframe) const;
+  void LearnLoadedMap(const MapSnapshot& map, KeyframeId first);
   std::optional<VerifiedLoop> Verify(const MapSnapshot& map, KeyframeId id,
                                      const std::vector<KeyframeId>& candidates);
 
@@ -49,6 +52,7 @@ class LoopCloser {
   LoopDetector detector_;
   std::vector<ClosedLoop> closed_;
   int keyframes_since_loop_;
+  bool knows_loaded_map_ = false;
   LoopCounts counts_;
 };
 

@@ -102,6 +102,13 @@ TEST(LoopCloser, PausesAfterALoop) {
   EXPECT_EQ(run.closer.counts().keyframes, looked + 1);
 }
 
+TEST(LoopCloser, KeyframesOfALoadedMapArePlacesToo) {
+  ClosingRun run;
+  run.made.AddUpTo(kRound - 8);
+  run.Run(kRound + 6);
+  EXPECT_EQ(run.loops.size(), 1U);
+}
+
 TEST(LoopCloser, AKeyframeThatIsGoneIsNoError) {
   ClosingRun run;
   EXPECT_FALSE(run.closer.Process(*run.made.map.Snapshot(), KeyframeId(3)));

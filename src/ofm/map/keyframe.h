@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ofm/base/ids.h"
+#include "ofm/features/bag_of_words.h"
 #include "ofm/features/frame_features.h"
 #include "ofm/geometry/rigid_transform.h"
 
@@ -12,11 +13,12 @@ namespace ofm {
 
 struct Keyframe {
   KeyframeId id;
-  FrameId frame_id;
+  FrameId frame_id;  ///< of the run that made it; invalid in a map that was loaded
   std::int64_t stamp_ns = 0;
   RigidTransform camera_from_world;
   std::shared_ptr<const FrameFeatures> features;
-  std::vector<LandmarkId> landmarks;  ///< by feature; invalid where none
+  std::shared_ptr<const BagOfWords> words;  ///< StaticWords, to recognise the place; may be null
+  std::vector<LandmarkId> landmarks;        ///< by feature; invalid where none
 
   Eigen::Vector3d CenterInWorld() const { return camera_from_world.Inverse().translation(); }
 };

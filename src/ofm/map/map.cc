@@ -60,6 +60,16 @@ std::optional<RigidTransform> Map::FindKeyframePose(KeyframeId id) const {
   return PoseByAnchors(keyframes_, anchors_, id);
 }
 
+Map::Map(OctaveScales scales, const MapSnapshot& snapshot)
+    : scales_(std::move(scales)),
+      keyframes_(snapshot.keyframes),
+      landmarks_(snapshot.landmarks),
+      replacements_(snapshot.replacements),
+      anchors_(snapshot.anchors),
+      latest_keyframe_(snapshot.latest_keyframe) {
+  OFM_CHECK(replacements_.size() == snapshot.landmarks.ids_issued());
+}
+
 const Landmark* Map::FindLandmark(LandmarkId id) const {
   return landmarks_.Find(FollowReplacements(id, replacements_));
 }

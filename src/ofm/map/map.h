@@ -39,6 +39,8 @@ struct MapSnapshot {
 class Map {
  public:
   explicit Map(OctaveScales scales) : scales_(std::move(scales)) {}
+  /// A map that goes on from `snapshot`, which does not change.
+  Map(OctaveScales scales, const MapSnapshot& snapshot);
 
   /// Adds a keyframe whose landmarks are named by `keyframe.landmarks`; names that are gone or come
   /// twice are dropped. Sets the id.

@@ -1,7 +1,9 @@
 // Random sequences of all operations: the map must never contradict itself.
 #include <gtest/gtest.h>
 
+#include "ofm/io/test_folder.h"
 #include "ofm/map/map.h"
+#include "ofm/map/map_file.h"
 #include "ofm/map/test_map.h"
 
 namespace ofm {
@@ -148,6 +150,22 @@ TEST_P(MapConsistency, EveryNameEverGivenLeadsToALiveLandmarkOrNone) {
     EXPECT_EQ(snapshot->keyframes.Find(id), nullptr);
     EXPECT_TRUE(snapshot->FindKeyframePose(id).has_value());
   }
+}
+
+TEST_P(MapConsistency, ComesBackFromAFileAndGoesOn) {
+  const TestFolder folder;
+  RandomEditor editor(GetParam());
+  for (int step = 0; step < 200; ++step) editor.Step();
+  const auto saved = editor.map().Snapshot();
+  SaveMap(folder.path() / "m.ofm", *saved, {});
+  const StoredMap stored = LoadMap(folder.path() / "m.ofm");
+  ASSERT_EQ(test::FindDifference(*stored.map, *saved), "");
+  editor.map() = Map(test::TestScales(), *stored.map);
+  for (int step = 0; step < 200; ++step) {
+    const char* done = editor.Step();
+    ASSERT_EQ(FindProblem(editor.map()), "") << "after step " << step << ", " << done;
+  }
+  EXPECT_EQ(test::FindDifference(*stored.map, *saved), "") << "the loaded one has not changed";
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MapConsistency, testing::Range(0, 8));

@@ -210,5 +210,24 @@ TEST(Map, SnapshotIsWhatTheMapWasWhenItWasTaken) {
   EXPECT_EQ(after->landmark_count, 1U);
 }
 
+TEST(Map, GoesOnFromASnapshotUnderTheSameIds) {
+  Map map = MakeMap(3);
+  const LandmarkId a = AddSeen(map, 3, 0), b = AddSeen(map, 3, 1);
+  map.Fuse(a, b);
+  map.RemoveKeyframe(KeyframeId(2), KeyframeId(0));
+  const auto snapshot = map.Snapshot();
+
+  Map second(test::TestScales(), *snapshot);
+  EXPECT_EQ(test::FindDifference(*second.Snapshot(), *snapshot), "");
+  EXPECT_EQ(second.FindLandmark(a)->id, b);
+  EXPECT_EQ(second.keyframes().size(), 2U);
+  EXPECT_EQ(second.AddKeyframe(MakePlainKeyframe(8)), KeyframeId(3));
+  EXPECT_EQ(second.AddLandmark(kPoint, KeyframeId(3), 0), LandmarkId(2));
+  second.SetLandmarkPosition(b, {9, 9, 9});
+  EXPECT_EQ(FindProblem(second), "");
+  EXPECT_EQ(snapshot->FindLandmark(b)->position_in_world, kPoint) << "it has not changed";
+  EXPECT_EQ(map.FindLandmark(b)->position_in_world, kPoint) << "nor has the first map";
+}
+
 }  // namespace
 }  // namespace ofm

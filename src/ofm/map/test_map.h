@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ofm/base/random.h"
@@ -151,6 +153,71 @@ inline std::string FindProblem(const MapSnapshot& map) {
   });
   if (landmarks != map.landmark_count || keyframes != map.keyframe_count) problem = "wrong counts";
   return problem;
+}
+
+/// True where the numbers are the same to the last bit, but for the sign of zeros.
+inline bool IsSame(const RigidTransform& a, const RigidTransform& b) {
+  return a.rotation().coeffs() == b.rotation().coeffs() && a.translation() == b.translation();
+}
+
+inline bool IsSame(const FrameFeatures& a, const FrameFeatures& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Keypoint &ka = a.keypoints[i], &kb = b.keypoints[i];
+    if (ka.pixel != kb.pixel || ka.octave != kb.octave || ka.angle_rad != kb.angle_rad ||
+        ka.response != kb.response || a.StaticProbability(i) != b.StaticProbability(i)) {
+      return false;
+    }
+  }
+  return a.descriptors == b.descriptors && a.ideal_px == b.ideal_px && a.depth_m == b.depth_m;
+}
+
+inline bool IsSame(const Landmark& a, const Landmark& b) {
+  const auto seen = [](const Landmark& landmark) {
+    std::vector<std::pair<KeyframeId, int>> list;
+    for (const Landmark::Observation& o : landmark.observations) {
+      list.emplace_back(o.keyframe, o.feature);
+    }
+    return list;
+  };
+  const auto rest = [](const Landmark& l) {
+    return std::tuple(l.id, l.descriptor, l.min_distance_m, l.max_distance_m, l.first_keyframe,
+                      l.visible_count, l.found_count, l.static_probability);
+  };
+  return a.position_in_world == b.position_in_world && a.mean_view == b.mean_view &&
+         seen(a) == seen(b) && rest(a) == rest(b);
+}
+
+inline bool IsSame(const Keyframe& a, const Keyframe& b) {
+  return a.id == b.id && a.stamp_ns == b.stamp_ns && a.landmarks == b.landmarks &&
+         IsSame(a.camera_from_world, b.camera_from_world) && IsSame(*a.features, *b.features);
+}
+
+template <class Id, class T>
+bool IsSame(const TableSnapshot<Id, T>& a, const TableSnapshot<Id, T>& b) {
+  if (a.ids_issued() != b.ids_issued()) return false;
+  for (std::uint32_t i = 0; i < a.ids_issued(); ++i) {
+    const T *in_a = a.Find(Id(i)), *in_b = b.Find(Id(i));
+    if ((in_a == nullptr) != (in_b == nullptr)) return false;
+    if (in_a != nullptr && !IsSame(*in_a, *in_b)) return false;
+  }
+  return true;
+}
+
+/// In what two maps differ, the frames of their keyframes left out; empty where in nothing.
+inline std::string FindDifference(const MapSnapshot& a, const MapSnapshot& b) {
+  if (!IsSame(a.keyframes, b.keyframes)) return "keyframes";
+  if (!IsSame(a.landmarks, b.landmarks)) return "landmarks";
+  if (a.replacements != b.replacements) return "replacements";
+  if (a.latest_keyframe != b.latest_keyframe) return "latest keyframe";
+  if (a.keyframe_count != b.keyframe_count || a.landmark_count != b.landmark_count) return "counts";
+  const auto same_anchor = [](const auto& x, const auto& y) {
+    return x.first == y.first && x.second.keyframe == y.second.keyframe &&
+           IsSame(x.second.removed_from_keyframe, y.second.removed_from_keyframe);
+  };
+  const bool same_anchors = std::equal(a.anchors.begin(), a.anchors.end(), b.anchors.begin(),
+                                       b.anchors.end(), same_anchor);
+  return same_anchors ? "" : "anchors";
 }
 
 }  // namespace ofm::test

@@ -22,6 +22,8 @@ class TableSnapshot {
   const T* Find(Id id) const {
     return id.value < objects_.size() ? objects_[id.value].get() : nullptr;
   }
+  /// Number of ids that were issued; the next one.
+  std::size_t ids_issued() const { return objects_.size(); }
   /// Calls `visit(const T&)` by increasing id.
   template <class Visit>
   void ForEach(Visit&& visit) const {
@@ -31,6 +33,9 @@ class TableSnapshot {
   }
 
  private:
+  template <class, class>
+  friend class VersionedTable;
+
   std::vector<std::shared_ptr<const T>> objects_;
 };
 
@@ -39,6 +44,17 @@ class TableSnapshot {
 template <class Id, class T>
 class VersionedTable {
  public:
+  VersionedTable() = default;
+  /// A table that goes on from `snapshot`, under the same ids.
+  explicit VersionedTable(const TableSnapshot<Id, T>& snapshot) : version_(1) {
+    slots_.reserve(snapshot.objects_.size());
+    for (const auto& object : snapshot.objects_) {
+      // Of version 0, so that it is copied before it is changed.
+      slots_.push_back({std::const_pointer_cast<T>(object), 0});
+      size_ += object != nullptr;
+    }
+  }
+
   /// Takes ownership; sets and returns the object's id.
   Id Insert(T object) {
     const Id id(static_cast<std::uint32_t>(slots_.size()));

@@ -2,15 +2,30 @@
 
 #include <algorithm>
 
+#include "ofm/features/static_words.h"
 #include "ofm/mapping/keyframe_culling.h"
 #include "ofm/mapping/landmark_fusion.h"
 #include "ofm/mapping/landmark_triangulation.h"
 #include "ofm/mapping/map_adjustment.h"
 
 namespace ofm {
+namespace {
 
-Mapper::Mapper(const MeasurementModel& model, const MappingOptions& options)
-    : model_(model), options_(options), map_(model.scales) {}
+/// For as many keyframes after the one that made it, a landmark can be culled.
+constexpr std::uint32_t kTrialKeyframes = 3;
+
+}  // namespace
+
+Mapper::Mapper(const MeasurementModel& model, const MappingOptions& options,
+               const MapSnapshot& start)
+    : model_(model), options_(options), map_(model.scales, start) {
+  // The landmarks of the newest keyframes are still on trial.
+  map_.landmarks().ForEach([&](const Landmark& landmark) {
+    if (landmark.first_keyframe.value + kTrialKeyframes > map_.latest_keyframe().value) {
+      young_.push_back({landmark.id, landmark.first_keyframe});
+    }
+  });
+}
 
 KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
                           const std::vector<Sighting>& sightings) {
@@ -25,6 +40,7 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   keyframe.frame_id = candidate.frame_id;
   keyframe.stamp_ns = candidate.stamp_ns;
   keyframe.features = candidate.features;
+  keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*candidate.features));
   keyframe.landmarks = candidate.landmarks;
   keyframe.camera_from_world = candidate.camera_from_world;
   // The reference may have been adjusted, or removed, since the candidate was tracked against it.
@@ -86,7 +102,7 @@ void Mapper::CullYoung(KeyframeId current) {
       map_.RemoveLandmark(young.id);
       return true;
     }
-    return age >= 3;
+    return age >= kTrialKeyframes;
   });
 }
 

@@ -14,7 +14,9 @@ namespace ofm {
 /// Owns the map. Serves one thread; others read snapshots.
 class Mapper {
  public:
-  Mapper(const MeasurementModel& model, const MappingOptions& options);
+  /// Goes on with the map of `start`.
+  Mapper(const MeasurementModel& model, const MappingOptions& options,
+         const MapSnapshot& start = {});
 
   /// Puts the candidate into the map with landmarks from its depth, so that tracking can use them
   /// at once. `sightings` are those of the frames since the last keyframe.

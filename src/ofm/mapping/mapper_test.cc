@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ofm/features/static_words.h"
 #include "ofm/mapping/test_mapping.h"
 
 namespace ofm {
@@ -72,6 +73,18 @@ TEST(Mapper, InsertMakesLandmarksOfTheDepth) {
   }
   EXPECT_EQ(FindProblem(mapping.map()), "");
   EXPECT_EQ(FindProblem(*mapping.mapper().Snapshot()), "");
+}
+
+TEST(Mapper, InsertTellsTheWordsOfWhatStandsStill) {
+  TrueMapping mapping;
+  const MadeFrame frame = test::Changed(mapping.world().Frame(3), [](FrameFeatures& features) {
+    features.static_probability.assign(features.size(), 1);
+    for (std::size_t i = 0; i < features.size() / 2; ++i) features.static_probability[i] = 0;
+  });
+  const Keyframe& keyframe = mapping.map().GetKeyframe(mapping.Insert(frame));
+  ASSERT_NE(keyframe.words, nullptr);
+  EXPECT_EQ(*keyframe.words, StaticWords(*frame.features));
+  EXPECT_FALSE(keyframe.words->empty());
 }
 
 TEST(Mapper, FarDepthMakesLandmarksOnlyWhereThereAreTooFew) {
@@ -197,6 +210,23 @@ TEST(Mapper, GrownLandmarkIsNotJudgedAnyMore) {
   mapping.Insert(0, std::vector<Sighting>(50, {id, false}));
   mapping.mapper().Refine();
   EXPECT_NE(mapping.map().FindLandmark(id), nullptr);
+}
+
+TEST(Mapper, GoesOnWithAMapWhoseNewestLandmarksAreStillOnTrial) {
+  TrueMapping mapping(KeepKeyframes());
+  mapping.Insert(0);
+  const auto saved = mapping.mapper().Snapshot();
+  const KeyframeCandidate candidate = mapping.Candidate(mapping.world().Frame(1));
+  Mapper second(mapping.world().model(), KeepKeyframes(), *saved);
+  EXPECT_EQ(second.Insert(candidate, {}), KeyframeId(1));
+  const LandmarkId bad = *std::ranges::find_if(candidate.landmarks, &LandmarkId::valid);
+  second.Insert(mapping.Candidate(mapping.world().Frame(2)),
+                std::vector<Sighting>(9, {bad, false}));
+  ASSERT_NE(second.map().FindLandmark(bad), nullptr);
+  second.Refine();
+  EXPECT_EQ(second.map().FindLandmark(bad), nullptr);
+  EXPECT_EQ(FindProblem(second.map()), "");
+  EXPECT_EQ(FindProblem(*saved), "") << "the first map has not changed";
 }
 
 TEST(Mapper, NothingToRefineIsNoError) {

@@ -9,6 +9,7 @@
 #include "ofm/base/error.h"
 #include "ofm/io/image_file.h"
 #include "ofm/perception/class_names.h"
+#include "ofm/perception/instance_file.h"
 
 namespace ofm {
 namespace {
@@ -83,6 +84,12 @@ Segmentation MaskFolderSegmenter::Segment(const RgbdFrame& frame) {
   if (frame.name.empty()) {
     throw Error(folder_.path,
                 "masks are found by the colour file's name, and this source gives none");
+  }
+  const std::filesystem::path list = folder_.path / (frame.name + ".json");
+  if (std::filesystem::exists(list)) {
+    Segmentation segmentation = LoadInstances(list, frame.color.size(), folder_.class_names);
+    segmentation.frame_id = frame.id;
+    return segmentation;
   }
   const std::filesystem::path path = folder_.path / (frame.name + ".png");
   const cv::Mat ids = ReadInstanceImage(path, frame.color.size());

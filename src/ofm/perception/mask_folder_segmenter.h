@@ -16,8 +16,9 @@ struct MaskFolder {
   std::string mask_class = "person";     ///< class of every instance
 };
 
-/// Reads FOLDER/NAME.png for the frame called NAME: one channel of 8 or 16 bits, the frame's size,
-/// 0 = static, k = instance k. All instances have the score 1 and are ordered by number.
+/// For the frame called NAME reads FOLDER/NAME.json where there is one (see instance_file.h: with
+/// classes, scores and overlaps), else FOLDER/NAME.png: one channel of 8 or 16 bits, the frame's
+/// size, 0 = static, k = instance k. These have the score 1 and are ordered by number.
 class MaskFolderSegmenter : public Segmenter {
  public:
   /// Throws Error where the folder does not exist.

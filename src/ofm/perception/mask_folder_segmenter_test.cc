@@ -7,6 +7,7 @@
 
 #include "ofm/io/test_folder.h"
 #include "ofm/perception/class_names.h"
+#include "ofm/perception/instance_file.h"
 #include "ofm/perception/test_support.h"
 
 namespace ofm {
@@ -39,6 +40,19 @@ class MaskFolderSegmenterTest : public ::testing::Test {
 
   TestFolder folder_;
 };
+
+TEST_F(MaskFolderSegmenterTest, ListOfInstancesGoesBeforeAnImage) {
+  WriteMask("1.5", cv::Mat::ones(30, 40, CV_8UC1));
+  Segmentation written;
+  written.instances.push_back({{}, ClassId(0), 0.25F, {}, cv::Mat::zeros(30, 40, CV_8UC1)});
+  written.instances[0].mask(cv::Rect(3, 4, 5, 6)).setTo(255);
+  SaveInstances(folder_.path() / "1.5.json", written, {"person"});
+  const Segmentation read = Segmenter().Segment(Frame("1.5"));
+  EXPECT_EQ(read.frame_id, FrameId(7));
+  ASSERT_THAT(read.instances, SizeIs(1));
+  EXPECT_EQ(read.instances[0].score, 0.25F);
+  EXPECT_EQ(read.instances[0].box, cv::Rect(3, 4, 5, 6));
+}
 
 /// What was drawn comes back, for both depths of PNG.
 TEST_F(MaskFolderSegmenterTest, InstancesComeBackAsTheyWereDrawn) {

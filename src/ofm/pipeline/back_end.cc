@@ -101,18 +101,20 @@ void BackEnd::Finish(RunOutcome& outcome) {
   outcome.map = slam_.mapper().Snapshot();
   outcome.loops = loops_;
   outcome.loop_counts = slam_.loop_closer().counts();
+  outcome.map_is_whole = is_whole_;
   if (slam_.options().final_adjustment) {
     background_.Cancel();  // the final one does it all
   } else if (is_whole_) {
     TakeAdjustment(background_.Wait());
     outcome.map = slam_.mapper().Snapshot();
   }
-  if (slam_.options().final_adjustment && is_whole_) {
+  // A loaded map to which nothing was added stays as it is.
+  if (slam_.options().final_adjustment && is_whole_ && !keyframe_of_frame_.empty()) {
     ScopedStageTimer timer(times_, "final_adjustment");
     slam_.mapper().AdjustAll();
     outcome.map = slam_.mapper().Snapshot();
   }
-  if (!slam_.options().build_semantic_map) return;
+  if (!slam_.options().build_semantic_map || slam_.options().localize_only) return;
   ScopedStageTimer timer(times_, "semantic_map");
   std::map<KeyframeId, RigidTransform> poses;
   for (const auto& [frame, keyframe] : keyframe_of_frame_) {

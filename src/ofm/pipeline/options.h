@@ -19,6 +19,7 @@ struct SlamOptions {
   std::uint64_t seed = 0;  ///< of every random draw
   bool build_semantic_map = true;
   bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
+  bool localize_only = false;    ///< no mapping: the camera is followed in a map that was loaded
   PerceptionOptions perception;
   DynamicsOptions dynamics;
   OrbOptions features;
@@ -34,6 +35,8 @@ struct SlamOptions {
     visit("build_semantic_map", self.build_semantic_map, "make map.ply, map.ot and map.bt");
     visit("final_adjustment", self.final_adjustment,
           "bundle adjustment over all keyframes at the end");
+    visit("localize_only", self.localize_only,
+          "no mapping: the camera is followed in a map that was loaded");
     visit("perception", self.perception);
     visit("dynamics", self.dynamics);
     visit("features", self.features);

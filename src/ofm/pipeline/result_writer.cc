@@ -34,6 +34,7 @@ Json CountsJson(const RunCounts& counts) {
           {"frames_tracked", counts.frames_tracked},
           {"tracked_share", share},
           {"frames_dropped", counts.frames_dropped},
+          {"frames_reckoned", counts.frames_reckoned},
           {"losses", counts.losses},
           {"keyframes_made", counts.keyframes_made},
           {"keyframes", counts.keyframes},
@@ -133,6 +134,8 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   json["input"] = description.input;
   json["runner"] = description.runner;
   json["seed"] = options.seed;
+  if (!description.loaded_map.empty()) json["loaded_map"] = description.loaded_map;
+  if (!description.saved_map.empty()) json["saved_map"] = description.saved_map;
   json["error"] = outcome.error.empty() ? Json(nullptr) : Json(outcome.error);
   json["counts"] = CountsJson(outcome.counts);
   json["loops"] = LoopsJson(outcome);
@@ -140,6 +143,9 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
   if (description.live_evaluation) {
     json["trajectory_live"] = EvaluationToJson(*description.live_evaluation);
+  }
+  if (description.evaluation_in_map) {
+    json["trajectory_in_map"] = EvaluationToJson(*description.evaluation_in_map);
   }
   if (outcome.semantic_map) {
     json["map"] = {{"cloud_points", outcome.semantic_map->cloud_in_world.size()},

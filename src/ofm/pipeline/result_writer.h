@@ -17,12 +17,15 @@ void PrepareOutputFolder(const std::filesystem::path& folder);
 
 /// What the files tell beside the outcome.
 struct RunDescription {
-  std::string version;  ///< of the program
-  std::string input;    ///< sequence folder
-  std::string runner;   ///< "sequential" or "threaded"
+  std::string version;                          ///< of the program
+  std::string input;                            ///< sequence folder
+  std::string runner;                           ///< "sequential" or "threaded"
+  std::string loaded_map = {}, saved_map = {};  ///< files; empty where there are none
   PinholeCamera camera;
   std::optional<TrajectoryEvaluation> evaluation, live_evaluation;  ///< where there is ground truth
-  std::optional<CullingCounts> culling;                             ///< where there are true masks
+  /// The trajectory in the loaded map's world, aligned by the map's own keyframes.
+  std::optional<TrajectoryEvaluation> evaluation_in_map;
+  std::optional<CullingCounts> culling;  ///< where there are true masks
 };
 
 /// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, map.ply, map.ot, map.bt,

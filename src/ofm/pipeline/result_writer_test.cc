@@ -190,6 +190,23 @@ TEST(SummaryJson, TellsWhyARunEndedEarly) {
   EXPECT_EQ(summary["counts"]["tracked_share"], 0.0);
 }
 
+TEST(SummaryJson, NamesTheMapsThatWereLoadedAndSaved) {
+  const Recording recording(2);
+  const Trajectory truth = recording.sequence.GroundTruth();
+  RunDescription description;
+  const json without = json::parse(SummaryJson({}, {}, description));
+  for (const char* key : {"loaded_map", "saved_map", "trajectory_in_map"}) {
+    EXPECT_FALSE(without.contains(key)) << key;
+  }
+  description.loaded_map = "a.ofm";
+  description.saved_map = "b.ofm";
+  description.evaluation_in_map = EvaluateTrajectory(truth, truth);
+  const json summary = json::parse(SummaryJson({}, {}, description));
+  EXPECT_EQ(summary["loaded_map"], "a.ofm");
+  EXPECT_EQ(summary["saved_map"], "b.ofm");
+  EXPECT_EQ(summary["trajectory_in_map"]["ate"]["pairs"], 2);
+}
+
 TEST(PrepareOutputFolder, MakesTheFolderAndLeavesNothingInIt) {
   const TestFolder folder;
   const std::filesystem::path made = folder.path() / "a" / "b";

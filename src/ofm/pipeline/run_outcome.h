@@ -16,6 +16,8 @@ namespace ofm {
 struct RunCounts {
   std::size_t frames = 0;          ///< that the system was given
   std::size_t frames_tracked = 0;  ///< that have a pose
+  std::size_t frames_reckoned =
+      0;                           ///< of these, without any landmark: by the camera's motion alone
   std::size_t frames_dropped = 0;  ///< that came too early (real time only)
   std::size_t keyframes_made = 0, keyframes = 0, landmarks = 0;
   std::size_t losses = 0;        ///< times that tracking was lost
@@ -36,6 +38,7 @@ struct RunOutcome {
   Trajectory live_trajectory;  ///< what was known at the time of each frame
   Trajectory keyframe_trajectory;
   std::shared_ptr<const MapSnapshot> map;
+  bool map_is_whole = true;  ///< false where an error cut a change of the map short
   std::optional<SemanticMap> semantic_map;
   std::vector<std::string> class_names;
   StageTimes times;

@@ -1,5 +1,6 @@
 #include "ofm/pipeline/slam.h"
 
+#include "ofm/base/error.h"
 #include "ofm/features/default_vocabulary.h"
 
 namespace ofm {
@@ -10,16 +11,23 @@ MeasurementModel MakeModel(const PinholeCamera& camera, const SlamOptions& optio
           options.measurement};
 }
 
+std::shared_ptr<const MapSnapshot> RequireMap(std::shared_ptr<const MapSnapshot> map,
+                                              const SlamOptions& options) {
+  const bool empty = !map || map->keyframe_count == 0;
+  if (options.localize_only && empty) throw Error("localize_only needs a map: load one");
+  return map ? std::move(map) : std::make_shared<const MapSnapshot>();
+}
+
 }  // namespace
 
 Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
-           std::unique_ptr<Segmenter> segmenter)
+           std::unique_ptr<Segmenter> segmenter, std::shared_ptr<const MapSnapshot> map)
     : camera_(camera),
       options_(options),
       model_(MakeModel(camera, options)),
       front_end_(camera, options, std::move(segmenter)),
       tracker_(model_, options.tracking, options.seed),
-      mapper_(model_, options.mapping),
+      mapper_(model_, options.mapping, *RequireMap(std::move(map), options)),
       loop_closer_(model_, options.loop, DefaultVocabulary(), options.seed),
       semantic_mapper_(camera, options.dense) {}
 

@@ -16,8 +16,10 @@ namespace ofm {
 /// thread that its runner gives it.
 class Slam {
  public:
+  /// Goes on with `map`, where there is one: it must be of the same camera and of the same pyramid.
+  /// Throws Error where there is none and options.localize_only.
   Slam(const PinholeCamera& camera, const SlamOptions& options,
-       std::unique_ptr<Segmenter> segmenter);
+       std::unique_ptr<Segmenter> segmenter, std::shared_ptr<const MapSnapshot> map = nullptr);
 
   FrontEnd& front_end() { return front_end_; }
   Tracker& tracker() { return tracker_; }

@@ -27,14 +27,17 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   if (lost && !lost_) ++losses_;
   lost_ = lost;
   masked_sum_ += prepared.dynamic.masked_share;
-  sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
+  const bool mapping = !slam_.options().localize_only;
+  if (mapping) {
+    sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
+  }
   FrameReport report{prepared, result, log_.frames()};
   if (input.map) {
     report.keyframes = input.map->keyframe_count;
     report.landmarks = input.map->landmark_count;
   }
   for (RunObserver* observer : context_.observers) observer->OnFrame(report);
-  if (!result.keyframe) return {};
+  if (!result.keyframe || !mapping) return {};
   ++keyframes_made_;
   KeyframeJob job;
   job.candidate = std::move(*result.keyframe);
@@ -56,6 +59,7 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
   outcome.times.Merge(back_end.times());
   outcome.counts.frames = log_.frames();
   outcome.counts.frames_tracked = log_.CountWithPose();
+  outcome.counts.frames_reckoned = log_.CountReckoned();
   outcome.counts.keyframes_made = keyframes_made_;
   outcome.counts.keyframes = outcome.map->keyframe_count;
   outcome.counts.landmarks = outcome.map->landmark_count;

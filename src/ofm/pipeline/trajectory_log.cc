@@ -43,11 +43,18 @@ std::size_t TrajectoryLog::CountWithPose() const {
                        [](const Entry& entry) { return HasPose(entry.status); });
 }
 
+std::size_t TrajectoryLog::CountReckoned() const {
+  return std::ranges::count(entries_, TrackingStatus::kReckoned, &Entry::status);
+}
+
 Trajectory KeyframeTrajectory(const MapSnapshot& map) {
   Trajectory trajectory;
   map.keyframes.ForEach([&](const Keyframe& keyframe) {
     trajectory.push_back({keyframe.stamp_ns, keyframe.camera_from_world.Inverse()});
   });
+  std::ranges::stable_sort(trajectory, {}, &StampedPose::stamp_ns);
+  const auto repeated = std::ranges::unique(trajectory, {}, &StampedPose::stamp_ns);
+  trajectory.erase(repeated.begin(), repeated.end());
   return trajectory;
 }
 

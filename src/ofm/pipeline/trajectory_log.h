@@ -23,6 +23,7 @@ class TrajectoryLog {
 
   std::size_t frames() const { return entries_.size(); }
   std::size_t CountWithPose() const;
+  std::size_t CountReckoned() const;
 
  private:
   struct Entry {
@@ -37,7 +38,8 @@ class TrajectoryLog {
   std::vector<Entry> entries_;  // by increasing frame id
 };
 
-/// Poses of the keyframes that are in the map.
+/// Poses of the keyframes that are in the map, by time; of two of the same time, as where a
+/// recording was mapped twice, the older one.
 Trajectory KeyframeTrajectory(const MapSnapshot& map);
 
 }  // namespace ofm

@@ -41,10 +41,11 @@ std::vector<double> Places(const Trajectory& trajectory) {
 /// A map with keyframes at the given places along x, ids from 0.
 class TrajectoryLogTest : public testing::Test {
  protected:
-  KeyframeId AddKeyframe(double x) {
+  KeyframeId AddKeyframe(double x) { return AddKeyframe(x, ++stamp_ns_); }
+  KeyframeId AddKeyframe(double x, std::int64_t stamp_ns) {
     Keyframe keyframe;
     keyframe.camera_from_world = Shift(-x);
-    keyframe.stamp_ns = ++stamp_ns_;
+    keyframe.stamp_ns = stamp_ns;
     keyframe.features = std::make_shared<FrameFeatures>();
     return map_.AddKeyframe(std::move(keyframe));
   }
@@ -120,6 +121,12 @@ TEST_F(TrajectoryLogTest, KeyframeTrajectoryHasTheKeyframesThatAreLeft) {
   const Trajectory trajectory = KeyframeTrajectory(*map_.Snapshot());
   EXPECT_THAT(Places(trajectory), ElementsAre(1, 3));
   EXPECT_EQ(trajectory[1].stamp_ns, 3);
+}
+
+TEST_F(TrajectoryLogTest, KeyframeTrajectoryIsByTimeAndHasEachTimeOnce) {
+  for (const double place : {2, 3, 1}) AddKeyframe(place, static_cast<std::int64_t>(place));
+  AddKeyframe(7, 3);
+  EXPECT_THAT(Places(KeyframeTrajectory(*map_.Snapshot())), ElementsAre(1, 2, 3));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void KeepConsistentTurns(const TrackedFrame& last, const FrameFeatures& frame,
 
 /// Keyframes whose landmarks make up the local map, the one that shares most with the frame first.
 std::vector<KeyframeId> LocalKeyframes(const TrackingOptions& options, const MapSnapshot& map,
-                                       std::span<const PointMatch> known) {
+                                       std::span<const PointMatch> known, KeyframeId near) {
   constexpr int kNeighboursOf = 3, kNeighbours = 10;
   std::vector<LandmarkId> landmarks;
   for (const PointMatch& match : known) landmarks.push_back(match.landmark);
@@ -62,6 +62,7 @@ std::vector<KeyframeId> LocalKeyframes(const TrackingOptions& options, const Map
     }
   };
   for (const CovisibleKeyframe& observer : observers) add(observer.id);
+  if (observers.empty()) add(near);
   const std::size_t seeds = std::min<std::size_t>(kNeighboursOf, result.size());
   for (std::size_t i = 0; i < seeds; ++i) {
     const std::vector<CovisibleKeyframe> neighbours = FindCovisible(map, result[i]);
@@ -119,7 +120,7 @@ LocalMapMatches MatchLocalMap(const MeasurementModel& model, const TrackingOptio
                               const MapSnapshot& map, const FrameView& view,
                               std::span<const PointMatch> known) {
   LocalMapMatches result;
-  const std::vector<KeyframeId> keyframes = LocalKeyframes(options, map, known);
+  const std::vector<KeyframeId> keyframes = LocalKeyframes(options, map, known, view.near);
   if (!keyframes.empty()) result.reference = keyframes.front();
   std::vector<char> seen(map.replacements.size(), 0);
   std::vector<char> taken(view.features.size(), 0);

@@ -30,6 +30,7 @@ struct TrackedFrame {
 struct FrameView {
   const FrameFeatures& features;
   RigidTransform camera_from_world;  ///< predicted or first estimate
+  KeyframeId near = {};  ///< whose surroundings are searched where no landmark is known yet
 };
 
 /// The points that `last` saw, projected with the predicted pose and searched within `radius_px` at
@@ -46,7 +47,8 @@ struct LocalMapMatches {
   KeyframeId reference;             ///< sees most of the frame's landmarks
 };
 
-/// Searches landmarks of the keyframes that see what `known` names, and of their neighbours.
+/// Searches landmarks of the keyframes that see what `known` names (of `view.near` where that is
+/// nothing), and of their neighbours.
 LocalMapMatches MatchLocalMap(const MeasurementModel& model, const TrackingOptions& options,
                               const MapSnapshot& map, const FrameView& view,
                               std::span<const PointMatch> known);

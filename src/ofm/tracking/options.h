@@ -29,6 +29,40 @@ struct KeyframeOptions {
   }
 };
 
+/// Keyframes that are tried where the camera's place is not known.
+struct RelocalizationOptions {
+  int similar_keyframes = 10;  ///< that look most alike
+  int near_keyframes = 5;      ///< about the last known place
+  int spread_keyframes = 5;    ///< from all over the map, others in each frame
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("similar_keyframes", self.similar_keyframes, "tried because they look alike",
+          Range{0, 1000});
+    visit("near_keyframes", self.near_keyframes, "tried about the last known place",
+          Range{0, 1000});
+    visit("spread_keyframes", self.spread_keyframes, "tried all over the map, others in each frame",
+          Range{0, 1000});
+  }
+};
+
+/// How far the camera is followed without any landmark, by its motion from frame to frame.
+struct DeadReckoningOptions {
+  double max_s = 0.7;       ///< since the last frame with landmarks; then it is lost
+  double keyframe_s = 0.1;  ///< after which the map is continued from what is seen now
+  int min_features = 300;   ///< with depth, for that
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("max_s", self.max_s, "without landmarks the camera is lost after this [s]; 0 = at once",
+          Range{0, 60});
+    visit("keyframe_s", self.keyframe_s,
+          "without landmarks the map is continued by a new keyframe after this [s]", Range{0, 60});
+    visit("min_features", self.min_features, "features with depth that such a keyframe needs",
+          Range{10, 100000});
+  }
+};
+
 struct TrackingOptions {
   int min_start_features = 300;  ///< with depth, to begin a map
   double search_radius_px = 15;  ///< frame to frame, at octave 0
@@ -43,6 +77,8 @@ struct TrackingOptions {
   double ratio = 0.9;        ///< best to second best distance, frame to frame
   double map_ratio = 0.8;    ///< the same, against the local map
   double map_radius_px = 3;  ///< multiplies the local map's search radius of 2.5 or 4
+  DeadReckoningOptions dead_reckoning;
+  RelocalizationOptions relocalization;
   KeyframeOptions keyframe;
   PoseOptimizerOptions pose;
   PnpOptions pnp;
@@ -71,6 +107,8 @@ struct TrackingOptions {
     visit("map_ratio", self.map_ratio, "best to second best distance, local map", Range{0.1, 1});
     visit("map_radius_px", self.map_radius_px, "scales the local map's search radius",
           Range{0.1, 50});
+    visit("dead_reckoning", self.dead_reckoning);
+    visit("relocalization", self.relocalization);
     visit("keyframe", self.keyframe);
     visit("pose", self.pose);
     visit("pnp", self.pnp);

@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "ofm/base/random.h"
-#include "ofm/tracking/frame_matcher.h"
+#include "ofm/tracking/pose_search.h"
 #include "ofm/tracking/tracking_types.h"
 
 namespace ofm {
@@ -21,36 +20,28 @@ class Tracker {
   TrackingResult Process(const TrackingInput& input);
 
  private:
-  struct Estimate;
-
   TrackingResult Initialize(const TrackingInput& input) const;
   TrackingResult TrackOrRelocalize(const TrackingInput& input) const;
+  std::optional<TrackingResult> Reckon(const TrackingInput& input) const;
+  bool ContinuesMap(const TrackingInput& input, const TrackingResult& result) const;
   TrackingInput AlignDepth(const TrackingInput& input,
                            const std::optional<Vector6d>& velocity) const;
   std::optional<Vector6d> VelocityTo(const TrackingInput& input,
                                      const TrackingResult& result) const;
   RigidTransform PredictPose(const TrackingInput& input) const;
   void SyncWithMap(const MapSnapshot& map);
-  std::optional<Estimate> TrackFromLastFrame(const TrackingInput& input) const;
-  std::optional<Estimate> TrackFromKeyframe(const TrackingInput& input, const Keyframe& keyframe,
-                                            int min_inliers) const;
-  std::optional<Estimate> Relocalize(const TrackingInput& input) const;
-  bool IsSeenMoving(const TrackingInput& input, const RigidTransform& camera_from_world,
-                    LandmarkId id) const;
-  TrackingResult TrackLocalMap(const TrackingInput& input, const Estimate& estimate) const;
-  std::optional<Estimate> OptimizeMatches(const TrackingInput& input, const RigidTransform& initial,
-                                          const std::vector<PointMatch>& matches) const;
   void Remember(const TrackingInput& input, const TrackingResult& result);
 
   MeasurementModel model_;
   TrackingOptions options_;
-  std::uint64_t seed_;
+  PoseSearch search_;
   std::optional<TrackedFrame> last_;      // with a pose; empty while lost or waiting
   KeyframeId reference_;                  // of the last frame with a pose
   RigidTransform camera_from_reference_;  // of the last frame with a pose
   std::optional<Vector6d> velocity_;      // twist of camera_from_world per second
   int last_inliers_ = 0;
-  FrameId last_keyframe_frame_;  // the newest frame that was proposed as keyframe
+  std::int64_t fix_stamp_ns_ = 0;  // of the last frame that was not reckoned
+  FrameId last_keyframe_frame_;    // the newest frame that was proposed as keyframe
 };
 
 }  // namespace ofm

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 
 #include "ofm/tracking/test_run.h"
@@ -122,7 +123,7 @@ TEST(Tracker, IsLostWhenNothingIsSeenAndRelocalisesAfterwards) {
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
   for (std::uint32_t i = 5; i < 8; ++i) {
     const TrackingResult lost = run.Step(test::MakeBlindFrame(run.world().Frame(i)));
-    EXPECT_EQ(lost.status, TrackingStatus::kLost);
+    EXPECT_EQ(lost.status, i == 5 ? TrackingStatus::kReckoned : TrackingStatus::kLost);
     EXPECT_FALSE(lost.keyframe.has_value());
     EXPECT_EQ(lost.inliers, 0);
   }
@@ -136,6 +137,66 @@ TEST(Tracker, IsLostWhenNothingIsSeenAndRelocalisesAfterwards) {
   ExpectPose(result.camera_from_world, run.Truth(next), 1e-3, 0.1);
 }
 
+/// Tells the tracker how the camera moved from frame `id - 1` to `id`.
+std::function<void(TrackingInput&)> TrueMotion(const FeatureWorld& world, std::uint32_t id) {
+  const MadeFrame last = world.Frame(id - 1), current = world.Frame(id);
+  return [=](TrackingInput& input) {
+    input.motion_hint = {last.stamp_ns,
+                         current.camera_from_world * last.camera_from_world.Inverse()};
+  };
+}
+
+TEST(Tracker, ReckonsThroughBlindFramesByTheCamerasMeasuredMotion) {
+  TrackingRun run;
+  for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
+  for (std::uint32_t i = 5; i < 12; ++i) {
+    const MadeFrame frame = run.world().Frame(i);
+    const TrackingResult result = run.Step(test::MakeBlindFrame(frame), TrueMotion(run.world(), i));
+    ASSERT_EQ(result.status, TrackingStatus::kReckoned) << i;
+    EXPECT_EQ(result.inliers, 0);
+    EXPECT_FALSE(result.keyframe.has_value()) << "nothing to continue the map with";
+    ExpectPose(result.camera_from_world, run.Truth(frame), 1e-3, 0.1);
+  }
+  const MadeFrame back = run.world().Frame(12);
+  const TrackingResult found = run.Step(back, TrueMotion(run.world(), 12));
+  EXPECT_EQ(found.status, TrackingStatus::kTracked) << "no need to relocalise";
+  ExpectPose(found.camera_from_world, run.Truth(back), 1e-3, 0.1);
+}
+
+TEST(Tracker, ReckonsOnlyForSoLong) {
+  TrackingOptions options;
+  options.dead_reckoning.max_s = 0.3;  // three frames
+  TrackingRun run(DefaultWorld(), options);
+  for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
+  for (std::uint32_t i = 5; i < 12; ++i) {
+    const MadeFrame blind = test::MakeBlindFrame(run.world().Frame(i));
+    const TrackingStatus status = run.Step(blind, TrueMotion(run.world(), i)).status;
+    const std::int64_t since_ns = blind.stamp_ns - run.world().Frame(4).stamp_ns;
+    EXPECT_EQ(status, since_ns <= 300'000'000 ? TrackingStatus::kReckoned : TrackingStatus::kLost);
+  }
+}
+
+/// The camera turns to where no landmark is: all that it sees there is new.
+TEST(Tracker, ContinuesTheMapFromAReckonedPose) {
+  TrackingOptions options;
+  options.dead_reckoning.keyframe_s = 0.35;  // at 10 frames per second
+  TrackingRun run(DefaultWorld(), options);
+  FeatureWorldOptions elsewhere = DefaultWorld();
+  elsewhere.landmarks.seed += 1;
+  const FeatureWorld other(elsewhere);
+  for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
+  std::uint32_t continued = 0;
+  for (std::uint32_t i = 5; i < 20; ++i) {
+    const MadeFrame frame = other.Frame(i);
+    const TrackingResult result = run.Step(frame, TrueMotion(run.world(), i));
+    ASSERT_EQ(result.status, continued == 0 ? TrackingStatus::kReckoned : TrackingStatus::kTracked)
+        << i;
+    ExpectPose(result.camera_from_world, run.Truth(run.world().Frame(i)), 2e-3, 0.1);
+    if (continued == 0 && result.keyframe) continued = i;
+  }
+  EXPECT_EQ(continued, 8U) << "the first frame after 0.35 s";
+}
+
 TEST(Tracker, StaysLostInAPlaceThatItDoesNotKnow) {
   TrackingRun run;
   for (std::uint32_t i = 0; i < 5; ++i) run.Step(i);
@@ -144,7 +205,7 @@ TEST(Tracker, StaysLostInAPlaceThatItDoesNotKnow) {
   const FeatureWorld elsewhere(other);
   for (std::uint32_t i = 5; i < 8; ++i) {
     const TrackingResult result = run.Step(elsewhere.Frame(i));
-    EXPECT_EQ(result.status, TrackingStatus::kLost);
+    EXPECT_EQ(result.status, i == 5 ? TrackingStatus::kReckoned : TrackingStatus::kLost);
     EXPECT_TRUE(std::none_of(result.landmarks.begin(), result.landmarks.end(),
                              [](LandmarkId id) { return id.valid(); }));
   }
@@ -241,15 +302,15 @@ TEST(Tracker, GivesTheSameBytesEveryTime) {
   world.descriptor_noise_bits = 10;
   TrackingRun a(world), b(world);
   for (std::uint32_t i = 0; i < 12; ++i) {
-    // Frame 6 is blind, so that frame 7 draws random samples.
+    // Two blind frames, so that the next one draws random samples.
     const MadeFrame made = a.world().Frame(i);
-    const MadeFrame frame = i == 6 ? test::MakeBlindFrame(made) : made;
+    const MadeFrame frame = i == 6 || i == 7 ? test::MakeBlindFrame(made) : made;
     const TrackingResult ra = a.Step(frame), rb = b.Step(frame);
     EXPECT_EQ(ra.status, rb.status);
     EXPECT_EQ(ra.landmarks, rb.landmarks);
     EXPECT_EQ(ra.camera_from_world.translation(), rb.camera_from_world.translation());
     EXPECT_EQ(ra.camera_from_world.rotation().coeffs(), rb.camera_from_world.rotation().coeffs());
-    EXPECT_EQ(ra.status == TrackingStatus::kRelocalized, i == 7);
+    EXPECT_EQ(ra.status == TrackingStatus::kRelocalized, i == 8);
   }
 }
 

@@ -16,13 +16,14 @@ enum class TrackingStatus {
   kInitialized,  ///< this frame begins the map
   kTracked,      ///< the pose is known
   kRelocalized,  ///< the pose is known again, after a loss
+  kReckoned,     ///< no landmark was found; the pose follows from the camera's motion alone
   kLost,         ///< the pose is not known
 };
 
 /// True where the frame has a pose.
 inline bool HasPose(TrackingStatus status) {
   return status == TrackingStatus::kInitialized || status == TrackingStatus::kTracked ||
-         status == TrackingStatus::kRelocalized;
+         status == TrackingStatus::kRelocalized || status == TrackingStatus::kReckoned;
 }
 
 struct TrackingInput {

@@ -1,4 +1,4 @@
-#include "sha256.h"
+#include "ofm/io/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
