@@ -172,7 +172,7 @@ void CullByFlow(benchmark::State& state) {
   flow_options.epsilon_px = static_cast<double>(state.range(1)) / 100;
   flow_options.forward_backward_px = static_cast<double>(state.range(2));
   OpticalFlow flow(flow_options);
-  DynamicsStage stage({}, *FindCameraPreset("tum-fr1"), {});
+  DynamicsStage stage({.mode = DynamicsMode::kPaper}, *FindCameraPreset("tum-fr1"), {});
   std::vector<Eigen::Vector2f> points;
   double actor_points = 0, static_points = 0, actor_moving = 0, static_moving = 0, masked = 0;
   std::size_t index = 0;
@@ -181,7 +181,7 @@ void CullByFlow(benchmark::State& state) {
     const RgbdFrame frame = ReadFrame(files[index++ % files.size()]);
     const FlowResult result = flow.Advance(frame.gray, points);
     state.ResumeTiming();
-    const DynamicMask dynamic = stage.Process({frame, {}, result});
+    const DynamicMask dynamic = stage.Process({frame, {}, result, {}});
     state.PauseTiming();
     const cv::Mat truth = ReadActors(frame.name);
     const auto is_actor = [&](const Eigen::Vector2f& p) {

@@ -131,7 +131,8 @@ TEST_F(MapFiles, ADamagedFileIsOneErrorLineBeforeAnythingIsWritten) {
 TEST_F(MapFiles, WhatDoesNotFitIsOneErrorLine) {
   const std::pair<std::string, const char*> cases[] = {
       {"--load-map /nowhere/a.ofm", "/nowhere/a.ofm: does not exist"},
-      {"--load-map " + Map() + " --camera tum-fr1", "choose the right camera"},
+      {"--load-map " + Map() + " --camera tum-fr1",
+       "made with camera.width = 240, but here it is 640"},
       {"--load-map " + Map() + " --set features.levels=6", "made with features.levels = 8"},
       {"--save-map /nowhere/a.ofm", "/nowhere/a.ofm: cannot be written"},
       {"--localize-only", "--localize-only requires --load-map"},

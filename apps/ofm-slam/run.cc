@@ -72,7 +72,12 @@ void AddRunCommand(CLI::App& app) {
   command->add_flag("--threaded", settings.threaded,
                     "Mapping in a thread of its own (not reproducible to the byte)");
   command->add_flag("--realtime", settings.realtime,
-                    "Play at the recorded pace, threaded, and drop frames that come too early");
+                    "Play at the recorded pace, threaded, and drop frames that cannot wait");
+  command
+      ->add_option("--realtime-queue", settings.realtime_queue,
+                   "Frames that wait while one is worked on; of more the oldest are dropped")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_option("--true-masks", settings.true_masks,
                       "Folder of true instance masks (PNG): culling is measured against them");
   command->add_option("--write-masks", settings.write_masks,

@@ -34,7 +34,8 @@ Source OpenSource(const RunSettings& settings, std::shared_ptr<const RgbdSequenc
   source.frames = std::make_unique<PrefetchingSource>(
       std::make_unique<TumFrameSource>(std::move(sequence), settings.range));
   if (settings.realtime) {
-    auto paced = std::make_unique<PacedSource>(std::move(source.frames), SteadyPacingClock());
+    auto paced = std::make_unique<PacedSource>(std::move(source.frames), SteadyPacingClock(),
+                                               settings.realtime_queue);
     source.paced = paced.get();
     source.frames = std::move(paced);
   }

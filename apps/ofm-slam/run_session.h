@@ -23,8 +23,9 @@ struct RunSettings {
   std::filesystem::path save_map;     ///< to be written at the end; may be empty
   FrameRange range;
   bool threaded = false;
-  bool realtime = false;  ///< at the recorded pace; frames that come too early are dropped
-  bool quiet = false;     ///< no progress bar
+  bool realtime = false;           ///< at the recorded pace; frames that come too early wait
+  std::size_t realtime_queue = 4;  ///< frames that can wait; of more the oldest are dropped
+  bool quiet = false;              ///< no progress bar
   SlamOptions options;
 };
 

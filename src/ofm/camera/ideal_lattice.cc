@@ -84,6 +84,8 @@ IdealLattice::IdealLattice(const PinholeCamera& camera, int spacing_px, int mult
       reduced_px_.at<cv::Point2f>(row, column) = {reduced.x(), reduced.y()};
     }
   }
+  cv::Mat nothing;
+  cv::convertMaps(image_px_, cv::noArray(), image_pixels_, nothing, CV_16SC2, true);
   nearest_points_.create(camera.height, camera.width, CV_16SC2);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
@@ -95,9 +97,37 @@ IdealLattice::IdealLattice(const PinholeCamera& camera, int spacing_px, int mult
   }
 }
 
+cv::Rect IdealLattice::ImageRect(const cv::Rect& points) const {
+  const cv::Rect lattice({}, size()), image({}, nearest_points_.size());
+  const cv::Rect known = points & lattice;
+  if (known.empty()) return {};
+  // What the outermost points see ends the image.
+  const auto column = [&](int x) { return std::clamp(x, 0, cols_ - 1); };
+  const auto row = [&](int y) { return std::clamp(y, 0, rows_ - 1); };
+  const int left = known.x - 1, top = known.y - 1, right = known.br().x, bottom = known.br().y;
+  cv::Point2f low(1e9F, 1e9F), high(-1e9F, -1e9F);
+  const auto add = [&](int x, int y) {
+    const auto& p = image_px_.at<cv::Point2f>(row(y), column(x));
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  };
+  for (int x = left; x <= right; ++x) {
+    add(x, top);
+    add(x, bottom);
+  }
+  for (int y = top; y <= bottom; ++y) {
+    add(left, y);
+    add(right, y);
+  }
+  const cv::Point from(left < 0 ? 0 : cvFloor(low.x), top < 0 ? 0 : cvFloor(low.y));
+  const cv::Point to(right >= cols_ ? image.width : cvCeil(high.x) + 1,
+                     bottom >= rows_ ? image.height : cvCeil(high.y) + 1);
+  return cv::Rect(from, to) & image;
+}
+
 cv::Mat IdealLattice::SampleNearest(const cv::Mat& image) const {
   cv::Mat result;
-  cv::remap(image, result, image_px_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+  cv::remap(image, result, image_pixels_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
   return result;
 }
 

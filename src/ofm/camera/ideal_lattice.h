@@ -31,6 +31,10 @@ class IdealLattice {
   /// The lattice's own camera: its pixels are the lattice's points, without distortion.
   const PinholeCamera& camera() const { return lattice_camera_; }
 
+  /// Pixels of the camera's image outside of which none is nearest to a point of `points` (columns
+  /// and rows of the lattice).
+  cv::Rect ImageRect(const cv::Rect& points) const;
+
   /// Per pixel of the camera's image, the nearest point (column, row). CV_16SC2.
   const cv::Mat& nearest_points() const { return nearest_points_; }
 
@@ -47,6 +51,7 @@ class IdealLattice {
   Eigen::Vector2d origin_px_;
   PinholeCamera lattice_camera_;
   cv::Mat image_px_;        // CV_32FC2, per point: where the camera sees it
+  cv::Mat image_pixels_;    // CV_16SC2, the same in whole pixels
   cv::Mat reduced_px_;      // the same in an image reduced by the spacing
   cv::Mat nearest_points_;  // CV_16SC2, per pixel of the image: the nearest point
 };

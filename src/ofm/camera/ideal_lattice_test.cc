@@ -145,6 +145,27 @@ TEST_P(IdealLatticeSpacings, WhatTheCameraDoesNotSeeIsZero) {
   }
 }
 
+TEST_P(IdealLatticeSpacings, ImageRectHasAllPixelsOfItsPointsAndFewOthers) {
+  const cv::Rect all({}, lattice_.size());
+  EXPECT_EQ(lattice_.ImageRect(all), cv::Rect(0, 0, camera_.width, camera_.height));
+  EXPECT_TRUE(lattice_.ImageRect({}).empty());
+  const int half = lattice_.cols() / 2;
+  for (const cv::Rect points :
+       {cv::Rect(0, 0, 3, 2), cv::Rect(half, 2, 4, 3), cv::Rect(2, lattice_.rows() - 3, half, 3)}) {
+    const cv::Rect image = lattice_.ImageRect(points);
+    int outside = 0;
+    for (int y = 0; y < camera_.height; ++y) {
+      for (int x = 0; x < camera_.width; ++x) {
+        const auto nearest = lattice_.nearest_points().at<cv::Vec2s>(y, x);
+        outside += points.contains({nearest[0], nearest[1]}) && !image.contains({x, y}) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(outside, 0) << points;
+    EXPECT_LE(image.width, (points.width + 3) * spacing_px_ * 1.5 + 3) << points;
+    EXPECT_LE(image.height, (points.height + 3) * spacing_px_ * 1.5 + 3) << points;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(LensAndSpacing, IdealLatticeSpacings,
                          testing::Combine(testing::Bool(), testing::Values(1, 2, 4, 7)));
 

@@ -41,7 +41,7 @@ std::vector<cv::Point> ChooseCells(const LatticePair& pair, int block) {
 /// The chosen cells' points and where flow with an error of `pixel_sigma` [px] found them.
 std::vector<PoseObservation> Observe(const PinholeCamera& camera, const LatticePair& pair,
                                      const MotionOptions& options, double pixel_sigma) {
-  const double sigma_cells = pixel_sigma / options.cell_px;
+  const double sigma_cells = pixel_sigma / options.lattice.cell_px;
   std::vector<PoseObservation> observations;
   for (const cv::Point& cell : ChooseCells(pair, options.camera_motion.block_cells)) {
     const cv::Vec2f flow = pair.flow.at<cv::Vec2f>(cell);

@@ -4,8 +4,9 @@
 #include <opencv2/core.hpp>
 
 #include "ofm/base/random.h"
-#include "ofm/dynamics/lattice_frame.h"
+#include "ofm/dynamics/motion_options.h"
 #include "ofm/geometry/rigid_transform.h"
+#include "ofm/perception/lattice_frame.h"
 
 namespace ofm {
 

@@ -109,7 +109,7 @@ TEST(CameraMotion, FlowWithoutSenseGivesThePrediction) {
 TEST(CameraMotion, IsFoundInBlurredImagesByTheWiderError) {
   MadePair made(SmallMotion());
   MotionOptions options;
-  const double sigma_cells = 1.2 / options.cell_px;
+  const double sigma_cells = 1.2 / options.lattice.cell_px;
   RandomEngine engine = MakeRandomEngine(5, 0);
   for (auto it = made.flow.begin<cv::Vec2f>(); it != made.flow.end<cv::Vec2f>(); ++it) {
     for (int i = 0; i < 2; ++i) (*it)[i] += static_cast<float>(sigma_cells * NormalDeviate(engine));
@@ -142,7 +142,7 @@ class CameraMotionOfRenderedFrames : public testing::TestWithParam<int> {
   MotionOptions options_;
   const test::WalkingRecording& recording_ = test::WalkingRecording::Get(GetParam());
   const SimSequence& sequence_ = recording_.sequence;
-  MotionLattice lattice_{sequence_.camera(), options_};
+  MotionLattice lattice_{sequence_.camera(), options_.lattice};
 };
 
 TEST_P(CameraMotionOfRenderedFrames, IsThatOfTheSimulation) {

@@ -38,7 +38,7 @@ DynamicsStage::DynamicsStage(const DynamicsOptions& options, const PinholeCamera
 }
 
 DynamicMask DynamicsStage::Process(const DynamicsInput& input) {
-  if (full_) return full_->Process(input.frame, input.segmentation);
+  if (full_) return full_->Process(input.frame, input.segmentation, input.step);
   DynamicMask result;
   result.mask = cv::Mat::zeros(input.frame.gray.size(), CV_8UC1);
   if (options_.mode == DynamicsMode::kOff) return result;

@@ -20,7 +20,8 @@ namespace ofm {
 struct DynamicsInput {
   const RgbdFrame& frame;
   const Segmentation& segmentation;
-  const FlowResult& flow;  ///< of the last frame's key points into this one; may be empty
+  const FlowResult& flow;   ///< of the last frame's key points into this one; mode `paper`
+  const LatticeStep& step;  ///< of the frame; mode `full`
 };
 
 /// Modes `off`, `paper` (the paper's Algorithm 1 and its union with the masks of people; a function

@@ -31,7 +31,7 @@ class DynamicsStageTest : public ::testing::Test {
     return DynamicsStage(options, scene_.camera, kClasses);
   }
   DynamicMask Process(const FlowResult& flow, const DynamicsOptions& options = kHalf) const {
-    return Stage(options).Process({frame_, segmentation_, flow});
+    return Stage(options).Process({frame_, segmentation_, flow, {}});
   }
   void AddInstance(std::uint32_t class_id, const cv::Rect& box) {
     Instance instance{InstanceId(0), ClassId(class_id), 0.9F, box,

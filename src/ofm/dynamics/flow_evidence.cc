@@ -184,7 +184,7 @@ void ForgiveNeighbours(const cv::Mat& depth_m, const cv::Mat& believed_moving, c
 cv::Mat FlowEvidence(const PinholeCamera& lattice_camera, const LatticePair& pair,
                      const RigidTransform& last_from_current, const MotionOptions& options) {
   constexpr int kNeighbourhood = 2;  // cells: the flow's window reaches over edges
-  const auto cell_px = static_cast<float>(options.cell_px);
+  const auto cell_px = static_cast<float>(options.lattice.cell_px);
   const StaticFlow expected =
       PredictStaticFlow(lattice_camera, pair.current.depth_m, last_from_current, kNeighbourhood);
   const cv::Mat mismatch = FindMismatch(pair);

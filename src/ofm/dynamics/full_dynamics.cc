@@ -5,7 +5,7 @@
 
 #include "ofm/base/time.h"
 #include "ofm/dynamics/mask_dilation.h"
-#include "ofm/dynamics/mask_upsampling.h"
+#include "ofm/perception/mask_upsampling.h"
 
 namespace ofm {
 namespace {
@@ -20,16 +20,16 @@ cv::Mat StaticProbability(const cv::Mat& log_odds_of_moving) {
 }
 
 /// Of every fourth cell in both directions that has texture.
-std::vector<FlowVector> DrawnFlow(const MotionVerdict& verdict, const MotionLattice& lattice,
-                                  const PinholeCamera& camera, const cv::Mat& texture) {
+std::vector<FlowVector> DrawnFlow(const MotionVerdict& verdict, const LatticeStep& step,
+                                  const IdealLattice& cells, const PinholeCamera& camera) {
   constexpr int kStep = 4;
   std::vector<FlowVector> vectors;
-  for (int y = 0; y < verdict.flow.rows; y += kStep) {
-    for (int x = 0; x < verdict.flow.cols; x += kStep) {
-      if (texture.at<std::uint8_t>(y, x) == 0) continue;
-      const cv::Vec2f flow = verdict.flow.at<cv::Vec2f>(y, x);
+  for (int y = 0; y < step.flow.rows; y += kStep) {
+    for (int x = 0; x < step.flow.cols; x += kStep) {
+      if (step.frame.texture.at<std::uint8_t>(y, x) == 0) continue;
+      const cv::Vec2f flow = step.flow.at<cv::Vec2f>(y, x);
       const auto pixel_at = [&](double column, double row) {
-        return camera.Distort(lattice.cells().IdealPx(column, row)).cast<float>().eval();
+        return camera.Distort(cells.IdealPx(column, row)).cast<float>().eval();
       };
       vectors.push_back(
           {pixel_at(x + flow[0], y + flow[1]), pixel_at(x, y), verdict.belief.at<float>(y, x) > 0});
@@ -48,16 +48,16 @@ FullDynamics::FullDynamics(const DynamicsOptions& options, const PinholeCamera& 
                            const ClassPolicies& policies)
     : options_(options), camera_(camera), policies_(policies), judge_(camera, options.motion) {}
 
-DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation) {
+DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& segmentation,
+                                  const LatticeStep& step) {
   const std::int64_t last_stamp_ns = state_.last ? state_.last->stamp_ns : frame.stamp_ns;
   FollowInstances(frame, segmentation);
-  const LatticeFrame lattice_frame = judge_.lattice().MakeFrame(frame);
   const MotionVerdict verdict =
-      judge_.Process({lattice_frame, InstancePrior(), frame.id.value}, state_);
+      judge_.Process({step.frame, step.flow, InstancePrior(), frame.id.value}, state_);
   JudgeInstances(verdict, NanosecondsToSeconds(frame.stamp_ns - last_stamp_ns));
 
   DynamicMask result;
-  result.mask = MaskOf(verdict, lattice_frame, frame, segmentation);
+  result.mask = MaskOf(verdict, step.frame, frame, segmentation);
   result.unmapped = result.mask.clone();
   for (const InstanceTrack& track : tracks_.tracks) {
     AddDilated(track.instance.mask, options_.dilation_px, result.unmapped);
@@ -67,7 +67,7 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
     result.camera_motion =
         FrameMotion{last_stamp_ns, verdict.camera_motion.last_from_current.Inverse()};
   }
-  result.flow = DrawnFlow(verdict, judge_.lattice(), camera_, lattice_frame.texture);
+  result.flow = DrawnFlow(verdict, step, judge_.lattice().cells(), camera_);
   result.masked_share = ShareOf(result.mask);
   return result;
 }

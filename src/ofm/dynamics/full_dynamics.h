@@ -8,6 +8,7 @@
 #include "ofm/dynamics/instance_motion.h"
 #include "ofm/dynamics/instance_tracker.h"
 #include "ofm/dynamics/motion_judge.h"
+#include "ofm/perception/lattice_flow.h"
 #include "ofm/perception/segmentation.h"
 
 namespace ofm {
@@ -20,7 +21,9 @@ class FullDynamics {
   FullDynamics(const DynamicsOptions& options, const PinholeCamera& camera,
                const ClassPolicies& policies);
 
-  DynamicMask Process(const RgbdFrame& frame, const Segmentation& segmentation);
+  /// `step` is that of the frame.
+  DynamicMask Process(const RgbdFrame& frame, const Segmentation& segmentation,
+                      const LatticeStep& step);
 
  private:
   void FollowInstances(const RgbdFrame& frame, const Segmentation& segmentation);

@@ -16,12 +16,28 @@ using test::ShareSet;
 
 constexpr std::uint32_t kFrames = test::WalkingRecording::kFrames;
 
+/// Mode full with the flow that it needs.
+class FlowingDynamics {
+ public:
+  FlowingDynamics(const DynamicsOptions& options, const PinholeCamera& camera,
+                  const ClassPolicies& policies)
+      : flow_(camera, options.motion.lattice), dynamics_(options, camera, policies) {}
+
+  DynamicMask Process(const RgbdFrame& frame, const Segmentation& segmentation) {
+    return dynamics_.Process(frame, segmentation, flow_.Process(frame));
+  }
+
+ private:
+  LatticeFlow flow_;
+  FullDynamics dynamics_;
+};
+
 class FullDynamicsTest : public testing::Test {
  protected:
   cv::Mat People(std::uint32_t i) const { return sequence_.MoverMask(FrameId(i)) > 0; }
   cv::Mat HasDepth(std::uint32_t i) const { return frames_[i].depth_m > 0; }
   Segmentation Nobody(std::uint32_t i) const { return {FrameId(i), {}}; }
-  FullDynamics Make(const DynamicsOptions& options = {}) const {
+  FlowingDynamics Make(const DynamicsOptions& options = {}) const {
     return {options, sequence_.camera(), ClassPolicies(options, {"person", "chair"})};
   }
 
@@ -31,7 +47,7 @@ class FullDynamicsTest : public testing::Test {
 };
 
 TEST_F(FullDynamicsTest, WalkerIsMaskedWithoutAnyInstance) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   double found = 0, wrong = 0;
   int frames = 0;
   for (std::uint32_t i = 0; i < kFrames; ++i) {
@@ -51,7 +67,7 @@ TEST_F(FullDynamicsTest, WalkerIsMaskedWithoutAnyInstance) {
 }
 
 TEST_F(FullDynamicsTest, InstanceOfADynamicClassIsMaskedFromTheFirstFrame) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   for (std::uint32_t i = 0; i < 5; ++i) {
     const DynamicMask result = dynamics.Process(frames_[i], OneInstance(FrameId(i), People(i)));
     EXPECT_GT(ShareSet(result.mask, People(i)), 0.97) << i;
@@ -67,7 +83,7 @@ TEST_F(FullDynamicsTest, InstanceOfAnotherClassIsNotPresumedToMove) {
 
 TEST_F(FullDynamicsTest, StaticRoomIsKeptAndItsCameraFollowed) {
   const auto& [empty, frames] = test::WalkingRecording::Get(0);
-  FullDynamics dynamics({}, empty.camera(), ClassPolicies({}, {}));
+  FlowingDynamics dynamics({}, empty.camera(), ClassPolicies({}, {}));
   for (std::uint32_t i = 0; i < 8; ++i) {
     const DynamicMask result = dynamics.Process(frames[i], {});
     EXPECT_LT(result.masked_share, 0.05) << i;
@@ -83,7 +99,7 @@ TEST_F(FullDynamicsTest, StaticRoomIsKeptAndItsCameraFollowed) {
 }
 
 TEST_F(FullDynamicsTest, StaticProbabilityGoesWithTheMask) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   DynamicMask result;
   for (std::uint32_t i = 0; i < 8; ++i) {
     result = dynamics.Process(frames_[i], OneInstance(FrameId(i), People(i)));
@@ -95,7 +111,7 @@ TEST_F(FullDynamicsTest, StaticProbabilityGoesWithTheMask) {
 }
 
 TEST_F(FullDynamicsTest, SameFramesGiveTheSameMasks) {
-  FullDynamics a = Make(), b = Make();
+  FlowingDynamics a = Make(), b = Make();
   for (std::uint32_t i = 0; i < 4; ++i) {
     const DynamicMask first = a.Process(frames_[i], Nobody(i));
     const DynamicMask second = b.Process(frames_[i], Nobody(i));
@@ -105,7 +121,7 @@ TEST_F(FullDynamicsTest, SameFramesGiveTheSameMasks) {
 }
 
 TEST_F(FullDynamicsTest, PersonWithoutAnyDepthIsMaskedByTheInstance) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   for (std::uint32_t i = 0; i < 6; ++i) {
     RgbdFrame frame = frames_[i];
     frame.depth_m = frames_[i].depth_m.clone();
@@ -117,7 +133,7 @@ TEST_F(FullDynamicsTest, PersonWithoutAnyDepthIsMaskedByTheInstance) {
 }
 
 TEST_F(FullDynamicsTest, OtherHalfServesWhereHalfOfTheImageIsMasked) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   cv::Mat half = cv::Mat::zeros(frames_[0].gray.size(), CV_8UC1);
   half.colRange(0, half.cols / 2) = 255;
   for (std::uint32_t i = 0; i < 6; ++i) {
@@ -129,7 +145,7 @@ TEST_F(FullDynamicsTest, OtherHalfServesWhereHalfOfTheImageIsMasked) {
 }
 
 TEST_F(FullDynamicsTest, MaskOverTheWholeImageIsNotBelieved) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   const cv::Mat all(frames_[0].gray.size(), CV_8UC1, cv::Scalar(255));
   for (std::uint32_t i = 0; i < kFrames; ++i) {
     const DynamicMask result = dynamics.Process(frames_[i], OneInstance(FrameId(i), all));
@@ -145,7 +161,7 @@ class StandingInstance : public testing::Test {
   std::pair<double, double> Process(DynamicsOptions options) const {
     options.instance_motion.static_log_odds_per_s = 40;
     const auto& [sequence, frames] = test::WalkingRecording::Get(0);
-    FullDynamics dynamics(options, sequence.camera(), ClassPolicies(options, {"person"}));
+    FlowingDynamics dynamics(options, sequence.camera(), ClassPolicies(options, {"person"}));
     std::pair<double, double> shares;
     for (std::uint32_t i = 0; i < kFrames; ++i) {
       const cv::Mat instances = sequence.InstanceMask(FrameId(i));
@@ -183,7 +199,7 @@ TEST_F(StandingInstance, OfAClassThatAlwaysMovesStaysMasked) {
 }
 
 TEST_F(FullDynamicsTest, WhatNeverMovesIsNeverMasked) {
-  FullDynamics dynamics = Make({.dynamic_classes = {}, .never_dynamic = {"person"}});
+  FlowingDynamics dynamics = Make({.dynamic_classes = {}, .never_dynamic = {"person"}});
   for (std::uint32_t i = 0; i < kFrames; ++i) {
     const DynamicMask result = dynamics.Process(frames_[i], OneInstance(FrameId(i), People(i)));
     cv::Mat inside;
@@ -193,7 +209,7 @@ TEST_F(FullDynamicsTest, WhatNeverMovesIsNeverMasked) {
 }
 
 TEST_F(FullDynamicsTest, DepthThatIsNoNumberIsTakenForNone) {
-  FullDynamics a = Make(), b = Make();
+  FlowingDynamics a = Make(), b = Make();
   RandomEngine engine = MakeRandomEngine(1, 0);
   for (std::uint32_t i = 0; i < 4; ++i) {
     RgbdFrame with_nan = frames_[i], with_zero = frames_[i];
@@ -213,7 +229,7 @@ TEST_F(FullDynamicsTest, DepthThatIsNoNumberIsTakenForNone) {
 }
 
 TEST_F(FullDynamicsTest, FrameWithoutAnyDepthIsJudgedByItsInstances) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   for (std::uint32_t i = 0; i < 6; ++i) {
     RgbdFrame frame = frames_[i];
     if (i != 1) frame.depth_m = cv::Mat(frame.depth_m.size(), CV_32FC1, cv::Scalar(0));
@@ -227,7 +243,7 @@ TEST_F(FullDynamicsTest, FrameWithoutAnyDepthIsJudgedByItsInstances) {
 }
 
 TEST_F(FullDynamicsTest, StreamThatJumpsBackInTimeBeginsAnew) {
-  FullDynamics dynamics = Make();
+  FlowingDynamics dynamics = Make();
   for (std::uint32_t i = 4; i < 8; ++i) dynamics.Process(frames_[i], Nobody(i));
   const DynamicMask result = dynamics.Process(frames_[0], Nobody(0));
   EXPECT_EQ(result.masked_share, 0);

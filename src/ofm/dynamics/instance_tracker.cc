@@ -74,12 +74,15 @@ bool Bridge(const cv::Mat& depth_m, InstanceTrack& track) {
                                            static_cast<int>(std::lround(shift.y()))});
   if (track.seen.depths) {
     const auto depth = static_cast<float>(track.state.depth_m());
-    TrimToDepth(depth_m, {depth + track.seen.depths->near_m, depth + track.seen.depths->far_m},
-                mask);
+    const cv::Rect box = cv::boundingRect(mask);
+    cv::Mat object = mask(box);
+    TrimToDepth(depth_m(box),
+                {depth + track.seen.depths->near_m, depth + track.seen.depths->far_m}, object);
   }
   constexpr double kMinPartShare = 0.1;
   constexpr int kMinArea = 64;
-  if (KeepLargestParts(kMinPartShare, mask) < kMinArea) return false;
+  cv::Mat object = mask(cv::boundingRect(mask));
+  if (object.empty() || KeepLargestParts(kMinPartShare, object) < kMinArea) return false;
   track.instance.box = cv::boundingRect(mask);
   track.instance.mask = std::move(mask);
   return true;

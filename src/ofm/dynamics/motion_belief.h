@@ -3,7 +3,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "ofm/dynamics/lattice_frame.h"
+#include "ofm/dynamics/motion_options.h"
+#include "ofm/perception/lattice_frame.h"
 
 namespace ofm {
 

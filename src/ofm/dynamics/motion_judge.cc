@@ -1,7 +1,5 @@
 #include "ofm/dynamics/motion_judge.h"
 
-#include <opencv2/imgproc.hpp>
-
 #include "ofm/base/random.h"
 #include "ofm/base/time.h"
 #include "ofm/dynamics/flow_evidence.h"
@@ -10,17 +8,16 @@
 namespace ofm {
 
 MotionJudge::MotionJudge(const PinholeCamera& camera, const MotionOptions& options)
-    : options_(options), lattice_(camera, options) {}
+    : options_(options), lattice_(camera, options.lattice) {}
 
-MotionVerdict MotionJudge::Process(const MotionInput& input, MotionState& state) {
+MotionVerdict MotionJudge::Process(const MotionInput& input, MotionState& state) const {
   const LatticeFrame& frame = input.frame;
   MotionVerdict verdict;
   cv::Mat evidence = input.prior + options_.belief.prior_log_odds;
-  if (state.last && frame.stamp_ns > state.last->stamp_ns) {
+  if (state.last && !input.flow.empty()) {
     const double elapsed_s = NanosecondsToSeconds(frame.stamp_ns - state.last->stamp_ns);
-    verdict.flow = FlowToLast(frame, *state.last);
-    evidence += CarryBelief(state.belief, *state.last, frame, verdict.flow, options_.belief);
-    const LatticePair pair{frame, *state.last, verdict.flow, evidence};
+    evidence += CarryBelief(state.belief, *state.last, frame, input.flow, options_.belief);
+    const LatticePair pair{frame, *state.last, input.flow, evidence};
     RandomEngine engine = MakeRandomEngine(0, input.frame_id);
     const RigidTransform predicted = ExpSe3(elapsed_s * state.velocity).Inverse();
     verdict.camera_motion =
@@ -43,15 +40,6 @@ MotionVerdict MotionJudge::Process(const MotionInput& input, MotionState& state)
   state.last = frame;
   state.belief = verdict.belief;
   return verdict;
-}
-
-/// Per cell of `current`, in cells. No flow (tiny images) is flow zero.
-cv::Mat MotionJudge::FlowToLast(const LatticeFrame& current, const LatticeFrame& last) {
-  const cv::Mat flow = dense_flow_.Compute(current.gray, last.gray);
-  if (flow.empty()) return cv::Mat::zeros(lattice_.size(), CV_32FC2);
-  cv::Mat cells;
-  cv::resize(flow, cells, lattice_.size(), 0, 0, cv::INTER_AREA);
-  return cells / 2;
 }
 
 cv::Mat MotionJudge::JudgeFreeSpace(const LatticeFrame& frame, MotionState& state) const {

@@ -5,8 +5,7 @@
 
 #include "ofm/dynamics/camera_motion.h"
 #include "ofm/dynamics/free_space.h"
-#include "ofm/dynamics/lattice_frame.h"
-#include "ofm/perception/dense_flow.h"
+#include "ofm/perception/lattice_frame.h"
 
 namespace ofm {
 
@@ -23,13 +22,13 @@ struct MotionState {
 /// What is known of a frame before its motion is looked at.
 struct MotionInput {
   const LatticeFrame& frame;
+  const cv::Mat& flow;     ///< CV_32FC2 per cell: where it was in the last frame, relative [cells]
   const cv::Mat& prior;    ///< CV_32FC1 per cell: log-odds that instances bring along
   std::uint64_t frame_id;  ///< decides the random draws
 };
 
 struct MotionVerdict {
   cv::Mat belief;         ///< CV_32FC1 per cell: log-odds of moving
-  cv::Mat flow;           ///< CV_32FC2 per cell: where it was in the last frame, relative [cells]
   cv::Mat flow_evidence;  ///< CV_32FC1 per cell: what flow alone says
   CameraMotion camera_motion;
 };
@@ -42,17 +41,15 @@ class MotionJudge {
   MotionJudge(const PinholeCamera& camera, const MotionOptions& options);
 
   const MotionLattice& lattice() const { return lattice_; }
-  /// A function of the input and the state alone. The first frame, and one whose time does not lie
-  /// after the last, begin anew.
-  MotionVerdict Process(const MotionInput& input, MotionState& state);
+  /// A function of the input and the state alone. The first frame, and one without flow, begin
+  /// anew.
+  MotionVerdict Process(const MotionInput& input, MotionState& state) const;
 
  private:
-  cv::Mat FlowToLast(const LatticeFrame& current, const LatticeFrame& last);
   cv::Mat JudgeFreeSpace(const LatticeFrame& frame, MotionState& state) const;
 
   MotionOptions options_;
   MotionLattice lattice_;
-  DenseFlow dense_flow_;
 };
 
 }  // namespace ofm

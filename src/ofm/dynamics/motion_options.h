@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ofm/base/options.h"
+#include "ofm/perception/lattice_options.h"
 
 namespace ofm {
 
@@ -41,7 +42,6 @@ struct FlowEvidenceOptions {
   double static_log_odds = -1.5;      ///< what a cell without residual says
   double moving_log_odds = 5;         ///< what a large residual says, at most
   double indifferent_chi_square = 3;  ///< squared residual in sigmas that says nothing
-  int min_texture = 40;               ///< mean absolute gradient, below which flow says nothing
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -53,8 +53,6 @@ struct FlowEvidenceOptions {
     visit("moving_log_odds", self.moving_log_odds, "of a cell with a large one", Range{0, 10});
     visit("indifferent_chi_square", self.indifferent_chi_square,
           "squared residual in sigmas that says nothing", Range{0.1, 100});
-    visit("min_texture", self.min_texture, "mean gradient below which flow says nothing",
-          Range{0, 2000});
   }
 };
 
@@ -102,10 +100,8 @@ struct BeliefOptions {
 };
 
 struct MotionOptions {
-  int cell_px = 4;           ///< side of a cell [px]; even
-  double min_depth_m = 0.3;  ///< nearer and farther depth is not used
-  double max_depth_m = 5;
-  int dilation_px = 1;  ///< radius by which the mask grows
+  LatticeOptions lattice = {};  ///< masks are carried on it, too
+  int dilation_px = 1;          ///< radius by which the mask grows
   CameraMotionOptions camera_motion = {};
   FlowEvidenceOptions flow = {};
   FreeSpaceOptions free_space = {};
@@ -113,9 +109,7 @@ struct MotionOptions {
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("cell_px", self.cell_px, "side of a cell of the lattice [px]; even", Range{2, 64});
-    visit("min_depth_m", self.min_depth_m, "nearer depth is not used [m]", Range{0, 10});
-    visit("max_depth_m", self.max_depth_m, "farther depth is not used [m]", Range{0.1, 100});
+    visit("lattice", self.lattice, "the cells that motion is judged and masks are carried on");
     visit("dilation_px", self.dilation_px, "radius by which the mask grows [px]", Range{0, 100});
     visit("camera_motion", self.camera_motion, "the camera's own motion between frames");
     visit("flow", self.flow, "evidence from optical flow");

@@ -123,7 +123,7 @@ TEST_F(MapFile, FeaturesAreFoundAsBefore) {
 TEST_F(MapFile, AnyFlippedBitIsFound) {
   SaveMap(path_, *MakeMap(5), {});
   const std::string bytes = ReadFile(path_);
-  for (std::size_t i = 0; i < bytes.size(); i += i < 128 || i > bytes.size() - 96 ? 1 : 211) {
+  for (std::size_t i = 0; i < bytes.size(); i += i < 96 || i > bytes.size() - 96 ? 4 : 1499) {
     std::string flipped = bytes;
     flipped[i] = static_cast<char>(flipped[i] ^ (1 << i % 8));
     ASSERT_THAT(ErrorOfBytes(flipped), testing::ContainsRegex("damaged|changed")) << i;

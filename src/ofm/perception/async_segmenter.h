@@ -11,15 +11,13 @@
 
 #include "ofm/base/bounded_queue.h"
 #include "ofm/base/latest.h"
-#include "ofm/perception/optical_flow.h"
 #include "ofm/perception/segmenter.h"
 
 namespace ofm {
 
-/// A frame to be segmented, and what carries its masks on. Copies share the images.
+/// A frame to be segmented. Copies share the images.
 struct SegmentationRequest {
   RgbdFrame frame;
-  FlowPyramid pyramid;    ///< of frame.gray; may be empty
   std::size_t index = 0;  ///< the caller's count of frames
 };
 

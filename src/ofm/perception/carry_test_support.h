@@ -4,9 +4,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "ofm/perception/flow_frame.h"
+#include "ofm/perception/lattice_flow.h"
 #include "ofm/perception/segmentation.h"
 #include "ofm/perception/test_support.h"
+#include "ofm/sim/sim_sequence.h"
 
 namespace ofm::test {
 
@@ -52,10 +53,8 @@ struct CarryScene {
     return frame;
   }
 
-  FlowFrame Flow(std::uint32_t id, cv::Point2f centre) const {
-    const RgbdFrame frame = Frame(id, centre);
-    return {BuildFlowPyramid(frame.gray, {}), frame.depth_m, frame.stamp_ns};
-  }
+  /// The camera that sees it.
+  PinholeCamera camera() const { return MakeSimCamera(size.width, size.height); }
 
   static cv::Mat Shifted(const cv::Mat& image, cv::Point2f shift) {
     const cv::Mat transform = (cv::Mat_<double>(2, 3) << 1, 0, shift.x, 0, 1, shift.y);

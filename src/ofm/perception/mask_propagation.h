@@ -1,75 +1,81 @@
-// Carries the instances of one frame to another.
+// Carries the instances of one frame to later ones.
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "ofm/base/options.h"
-#include "ofm/perception/displacement_field.h"
-#include "ofm/perception/flow_frame.h"
-#include "ofm/perception/mask_points.h"
-#include "ofm/perception/optical_flow.h"
+#include "ofm/camera/ideal_lattice.h"
+#include "ofm/perception/depth_range.h"
 #include "ofm/perception/segmentation.h"
 
 namespace ofm {
 
 struct MaskPropagationOptions {
-  MaskPointOptions points = {};
-  DisplacementOptions displacement = {};
-  int search_px = 96;            ///< reach of the coarse search that flow starts from
   double depth_margin_m = 0.33;  ///< of the object's depths; what is farther off is not object
-  double max_departure_px = 24;  ///< a point that flow takes farther from the coarse search is lost
   int growth_px = 16;            ///< how far it grows along the object's surface
-  double growth_step_m = 0.05;   ///< between neighbouring pixels on it
+  double growth_step_m = 0.08;   ///< between neighbouring cells on it
   double growth_budget = 1.05;   ///< it stops at this share of the area before trimming
   double min_part_share = 0.1;   ///< of the largest part; smaller parts are dropped
   int max_hole_px = 400;         ///< pixels of the holes that are closed
-  double max_lost_s = 0.5;       ///< without flow an object goes on as it went for so long
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("points", self.points, "points followed on an object");
-    visit("displacement", self.displacement, "the object's motion from its points");
-    visit("search_px", self.search_px, "reach of the coarse search that flow starts from [px]",
-          Range{0, 1000});
     visit("depth_margin_m", self.depth_margin_m,
           "what is farther than this from the object's depths is trimmed [m]", Range{0, 100});
-    visit("max_departure_px", self.max_departure_px,
-          "a point that flow takes farther than this from the coarse search is lost [px]",
-          Range{1, 1000});
     visit("growth_px", self.growth_px, "how far a mask grows along the object's surface [px]",
           Range{0, 1000});
+    visit("growth_step_m", self.growth_step_m, "depth step between cells on one surface [m]",
+          Range{0, 10});
     visit("growth_budget", self.growth_budget,
           "growth stops at this share of the area before trimming", Range{0, 10});
-    visit("growth_step_m", self.growth_step_m, "depth step between pixels on one surface [m]",
-          Range{0, 10});
     visit("min_part_share", self.min_part_share, "of the largest part; smaller ones are dropped",
           Range{0, 1});
     visit("max_hole_px", self.max_hole_px, "pixels of the holes that are closed", Range{0, 1e6});
-    visit("max_lost_s", self.max_lost_s,
-          "without flow an object goes on as it went for so long [s]", Range{0, 100});
   }
 };
 
-/// An instance on its way through the frames.
-struct CarriedInstance {
-  Instance instance;
-  Eigen::Vector2f velocity_px_s = {0, 0};  ///< of its last carriage by flow
-  double lost_s = 0;                       ///< since then
+/// Instances as the network saw them, made ready for carrying. A value.
+struct MaskSource {
+  std::vector<Instance> instances;
+  std::vector<cv::Mat> cells;  ///< their masks as CV_8UC1 per cell: 255 = all of it is object
+  std::vector<std::optional<DepthRange>> depths;  ///< that they had; empty = not measured
 };
 
-/// The instances of the frame from, as they are in the frame to, in their order; those that have
-/// left the image, or whose flow was lost for longer than max_lost_s, are missing. Points on the
-/// object are followed by Lucas–Kanade from a coarse search; the mask is warped by the motion that
-/// most of them agree on and their departures from it (at half the resolution), trimmed to the
-/// depths of these points, freed of small parts and holes. Where a mask touches the image's border
-/// it goes on beyond. A pure function. After Ma et al., "NGD-SLAM: Towards Real-Time Dynamic SLAM
-/// without GPU", 2024, section III-B.
-std::vector<CarriedInstance> CarryInstances(std::span<const CarriedInstance> instances,
-                                            const FlowFrame& from, const FlowFrame& to,
-                                            const MaskPropagationOptions& options,
-                                            const OpticalFlowOptions& flow_options);
+/// The frame that masks are carried to.
+struct MaskTarget {
+  const cv::Mat& origins;       ///< of its cells in the source's frame (CarryOrigins)
+  const cv::Mat& cell_depth_m;  ///< CV_32FC1 [m] per cell, 0 = not known
+  const cv::Mat& depth_m;       ///< CV_32FC1 [m] of the image's size, 0 = not measured
+  double age_s = 0;             ///< of the source
+};
+
+/// Masks follow the dense flow of the lattice: an object is where its cells came from its mask.
+/// That is trimmed to depths that it can have come to, and that most of it has, grown along its
+/// surface, also to where flow knows no origin (what comes into view), freed of small parts and
+/// holes, and ends in the image where the object's depth ends. Immutable.
+class MaskPropagation {
+ public:
+  MaskPropagation(const IdealLattice& cells, const MaskPropagationOptions& options);
+
+  /// The masks have the size of the camera's image; `cell_depth_m` is that of their frame.
+  MaskSource Prepare(std::vector<Instance> instances, const cv::Mat& cell_depth_m) const;
+
+  /// The instances as they are in another frame, in their order; those that are no longer to be
+  /// seen are missing. A pure function.
+  std::vector<Instance> Carry(const MaskSource& source, const MaskTarget& target) const;
+
+ private:
+  std::optional<DepthRange> FindDepths(const cv::Mat& mask, const cv::Mat& depth_m) const;
+  /// Trims and grows what flow made of a mask, per cell; `free`: where it grows however far.
+  void FitToDepth(const cv::Mat& depth_m, const cv::Mat& free, cv::Mat& mask) const;
+  /// Drops small parts, closes holes. False where too little is left.
+  bool Tidy(cv::Mat& mask) const;
+  int InCells(int pixels) const { return pixels / cells_.spacing_px(); }
+
+  IdealLattice cells_;
+  MaskPropagationOptions options_;
+  cv::Mat seen_;  // CV_8UC1 per cell, 255 where the camera sees it
+};
 
 }  // namespace ofm

@@ -20,26 +20,17 @@ cv::Mat AsMat(std::span<const Eigen::Vector2f> points) {
                  const_cast<Eigen::Vector2f*>(points.data()));
 }
 
-/// Points and where their search begins; nowhere in particular where `expected` is empty.
-struct Search {
-  std::span<const Eigen::Vector2f> points, expected;
-};
-
 /// Lucas–Kanade one way; found[i] tells whether point i was found.
 std::vector<Eigen::Vector2f> Follow(const FlowPyramid& from, const FlowPyramid& to,
-                                    const Search& search, const OpticalFlowOptions& options,
+                                    std::span<const Eigen::Vector2f> points,
+                                    const OpticalFlowOptions& options,
                                     std::vector<std::uint8_t>& found) {
   const int last_level = static_cast<int>(from.levels.size()) / 2 - 1;
   const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, options.iterations,
                               options.epsilon_px);
   cv::Mat moved;
-  int flags = 0;
-  if (!search.expected.empty()) {
-    AsMat(search.expected).copyTo(moved);
-    flags = cv::OPTFLOW_USE_INITIAL_FLOW;
-  }
-  cv::calcOpticalFlowPyrLK(from.levels, to.levels, AsMat(search.points), moved, found,
-                           cv::noArray(), WindowOf(options), last_level, stop, flags);
+  cv::calcOpticalFlowPyrLK(from.levels, to.levels, AsMat(points), moved, found, cv::noArray(),
+                           WindowOf(options), last_level, stop);
   const auto* begin = moved.ptr<Eigen::Vector2f>();
   return {begin, begin + moved.total()};
 }
@@ -61,7 +52,7 @@ void CheckBackward(const FlowPyramid& previous, const FlowPyramid& current,
   }
   if (points.empty()) return;
   std::vector<std::uint8_t> found;
-  const auto back = Follow(current, previous, {points, {}}, options, found);
+  const auto back = Follow(current, previous, points, options, found);
   const auto limit = static_cast<float>(options.forward_backward_px);
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const bool returns = found[k] != 0 && (back[k] - flow.previous[indices[k]]).norm() <= limit;
@@ -83,20 +74,12 @@ FlowPyramid BuildFlowPyramid(const cv::Mat& gray, const OpticalFlowOptions& opti
 
 FlowResult TrackPoints(const FlowPyramid& previous, const FlowPyramid& current,
                        std::span<const Eigen::Vector2f> points, const OpticalFlowOptions& options) {
-  return TrackPoints(previous, current, points, {}, options);
-}
-
-FlowResult TrackPoints(const FlowPyramid& previous, const FlowPyramid& current,
-                       std::span<const Eigen::Vector2f> points,
-                       std::span<const Eigen::Vector2f> expected,
-                       const OpticalFlowOptions& options) {
   OFM_CHECK(!previous.levels.empty() && previous.size == current.size);
-  OFM_CHECK(expected.empty() || expected.size() == points.size());
   FlowResult flow;
   if (points.empty()) return flow;
   flow.previous.assign(points.begin(), points.end());
   std::vector<std::uint8_t> found;
-  flow.current = Follow(previous, current, {points, expected}, options, found);
+  flow.current = Follow(previous, current, points, options, found);
   flow.status.assign(points.size(), FlowStatus::kTracked);
   for (std::size_t i = 0; i < flow.size(); ++i) {
     if (found[i] == 0 || !IsInside(flow.current[i], current.size)) {

@@ -59,12 +59,6 @@ FlowPyramid BuildFlowPyramid(const cv::Mat& gray, const OpticalFlowOptions& opti
 FlowResult TrackPoints(const FlowPyramid& previous, const FlowPyramid& current,
                        std::span<const Eigen::Vector2f> points, const OpticalFlowOptions& options);
 
-/// As above, starting from where the points are expected to be: as many as there are points.
-FlowResult TrackPoints(const FlowPyramid& previous, const FlowPyramid& current,
-                       std::span<const Eigen::Vector2f> points,
-                       std::span<const Eigen::Vector2f> expected,
-                       const OpticalFlowOptions& options);
-
 /// Flow from image to image, each one's pyramid built once. One object serves one thread.
 class OpticalFlow {
  public:

@@ -75,25 +75,6 @@ TEST(OpticalFlow, PyramidIsNeededForLargeShifts) {
   EXPECT_LT(errors(4) * 4, errors(1));
 }
 
-TEST(OpticalFlow, ASearchThatBeginsNearTheEndFindsWhatIsTooFarOtherwise) {
-  const cv::Mat image = test::MakeTexture(kSize, 11);
-  const Eigen::Vector2f shift(70, -30);
-  const cv::Mat moved = Shifted(image, shift);
-  const auto points = Grid(80);
-  auto expected = points;
-  for (Eigen::Vector2f& point : expected) point += shift + Eigen::Vector2f(3, -2);
-  const FlowPyramid from = BuildFlowPyramid(image, {}), to = BuildFlowPyramid(moved, {});
-  const auto count_right = [&](const FlowResult& flow) {
-    std::size_t right = 0;
-    for (std::size_t i = 0; i < flow.size(); ++i) right += ErrorOfPoint(flow, i, shift) < 0.2F;
-    return right;
-  };
-  EXPECT_GT(count_right(TrackPoints(from, to, points, expected, {})), points.size() * 9 / 10);
-  EXPECT_LT(count_right(TrackPoints(from, to, points, {})), points.size() / 10);
-  expected.pop_back();
-  EXPECT_THROW(TrackPoints(from, to, points, expected, {}), std::logic_error);
-}
-
 TEST(OpticalFlow, PointThatLeavesTheImageIsLost) {
   const cv::Mat image = test::MakeTexture(kSize, 3);
   const FlowResult flow = Track(image, Shifted(image, {-12, 0}), {{5, 100}, {100, 100}});

@@ -42,8 +42,6 @@ struct SegmentationScheduleOptions {
   int every_nth = 1;  ///< the network runs on each n-th frame; masks are carried to those between
   SegmentationFailure on_failure = SegmentationFailure::kStop;  ///< in mode wait
   double max_age_s = 1;  ///< masks whose frame is older are dropped
-  int max_steps = 4;     ///< carriages from the frame of an answer to the current one, at most
-  int history = 12;      ///< frames kept for that
   int niceness = 10;     ///< by which the network's thread is less urgent (Linux)
   MaskPropagationOptions propagation = {};
 
@@ -53,11 +51,7 @@ struct SegmentationScheduleOptions {
     visit("every_nth", self.every_nth, "mode wait: the network runs on each n-th frame",
           Range{1, 1000});
     visit("on_failure", self.on_failure, "mode wait: what an error of the network does");
-    visit("max_age_s", self.max_age_s, "masks whose frame is older are dropped [s]",
-          Range{0, 1000});
-    visit("max_steps", self.max_steps, "mode latest: carriages of an answer to now, at most",
-          Range{1, 100});
-    visit("history", self.history, "mode latest: frames kept for these", Range{1, 1000});
+    visit("max_age_s", self.max_age_s, "masks whose frame is older are dropped [s]", Range{0, 60});
     visit("niceness", self.niceness, "mode latest: of the network's thread (Linux)", Range{0, 19});
     visit("propagation", self.propagation, "how masks are carried");
   }

@@ -9,14 +9,15 @@
 #include "ofm/base/check.h"
 #include "ofm/base/time.h"
 #include "ofm/base/timing.h"
+#include "ofm/perception/cell_origins.h"
 
 namespace ofm {
 
 SegmentationStage::SegmentationStage(std::unique_ptr<Segmenter> segmenter,
                                      const SegmentationScheduleOptions& options,
-                                     const OpticalFlowOptions& flow)
-    : options_(options), flow_(flow) {
-  OFM_CHECK(segmenter != nullptr && options.every_nth > 0 && options.max_steps > 0);
+                                     const IdealLattice& cells)
+    : options_(options), propagation_(cells, options.propagation) {
+  OFM_CHECK(segmenter != nullptr && options.every_nth > 0);
   if (options.mode == SegmentationMode::kLatest) {
     async_ = std::make_unique<AsyncSegmenter>(std::move(segmenter), options.niceness);
   } else {
@@ -24,7 +25,7 @@ SegmentationStage::SegmentationStage(std::unique_ptr<Segmenter> segmenter,
   }
 }
 
-bool SegmentationStage::NeedsPyramid() const {
+bool SegmentationStage::NeedsFlow() const {
   return async_ != nullptr || options_.every_nth > 1 ||
          options_.on_failure == SegmentationFailure::kContinue;
 }
@@ -33,32 +34,25 @@ const std::vector<std::string>& SegmentationStage::class_names() const {
   return async_ ? async_->class_names() : segmenter_->class_names();
 }
 
-Segmentation SegmentationStage::Process(const RgbdFrame& frame, const FlowPyramid& pyramid) {
-  OFM_CHECK(!NeedsPyramid() || pyramid.size == frame.gray.size());
-  const Moment now{statistics_.frames++, {pyramid, frame.depth_m, frame.stamp_ns}};
+Segmentation SegmentationStage::Process(const RgbdFrame& frame, const LatticeStep& step) {
+  OFM_CHECK(!NeedsFlow() || !step.frame.depth_m.empty());
+  moments_.push_back({statistics_.frames++, frame.stamp_ns, step});
+  if (source_ && NeedsFlow()) CarryTo(moments_.back());
   if (async_) {
-    async_->Submit({frame, pyramid, now.index});
+    async_->Submit({frame, moments_.back().index});
     TakeAnswer();
-  } else if (now.index % static_cast<std::size_t>(options_.every_nth) == 0) {
-    RunNetwork(frame, now);
+  } else if (moments_.back().index % static_cast<std::size_t>(options_.every_nth) == 0) {
+    RunNetwork(frame);
   }
-  DropIfTooOld(now);
-  if (NeedsPyramid()) CarryTo(now);
-  if (async_) {
-    history_.push_back(now);
-    if (history_.size() > static_cast<std::size_t>(options_.history)) history_.pop_front();
-  }
-  return Current(frame.id, now);
+  DropIfTooOld();
+  return Current(frame);
 }
 
-void SegmentationStage::RunNetwork(const RgbdFrame& frame, const Moment& now) {
+void SegmentationStage::RunNetwork(const RgbdFrame& frame) {
   const std::int64_t start_ns = SteadyTimeNs();
   ++statistics_.network_runs;
   try {
-    Segmentation segmentation = segmenter_->Segment(frame);
-    instances_.clear();
-    for (Instance& instance : segmentation.instances) instances_.push_back({std::move(instance)});
-    source_ = at_ = now;
+    SetSource(moments_.back(), segmenter_->Segment(frame).instances);
   } catch (const std::logic_error&) {
     throw;
   } catch (const std::exception& error) {
@@ -80,49 +74,67 @@ void SegmentationStage::TakeAnswer() {
     if (status.failures > 0) ReportFailure(status.first_error);
   }
   if (!answer) return;
-  const SegmentationRequest& request = answer->request;
-  source_ = at_ = {request.index, {request.pyramid, request.frame.depth_m, request.frame.stamp_ns}};
-  instances_.clear();
-  for (const Instance& instance : answer->segmentation.instances) instances_.push_back({instance});
-  // Through the frames since then, or some of them, evenly chosen; the last step is Process's.
-  std::vector<const Moment*> later;
-  for (const Moment& moment : history_) {
-    if (moment.index > request.index) later.push_back(&moment);
+  const std::size_t index = answer->request.index;
+  if (index < moments_.front().index) return;  // too old
+  auto moment = moments_.begin() + static_cast<std::ptrdiff_t>(index - moments_.front().index);
+  SetSource(*moment, answer->segmentation.instances);
+  while (source_ && ++moment != moments_.end()) CarryTo(*moment);
+}
+
+void SegmentationStage::SetSource(const Moment& moment, std::vector<Instance> instances) {
+  source_ = Source{moment.index, moment.stamp_ns, {}};
+  if (!NeedsFlow()) {
+    source_->masks.instances = std::move(instances);
+    return;
   }
-  const auto steps = std::min(later.size(), static_cast<std::size_t>(options_.max_steps) - 1);
-  for (std::size_t k = 1; k <= steps; ++k) CarryTo(*later[k * later.size() / steps - 1]);
+  source_->masks = propagation_.Prepare(std::move(instances), moment.step.frame.depth_m);
+  origins_ = OwnOrigins(moment.step.frame.depth_m.size());
 }
 
-void SegmentationStage::CarryTo(const Moment& now) {
-  if (source_ && at_.index != now.index) {
-    instances_ = CarryInstances(instances_, at_.frame, now.frame, options_.propagation, flow_);
+/// One frame on from where origins_ are.
+void SegmentationStage::CarryTo(const Moment& moment) {
+  if (moment.step.flow.empty()) {
+    source_.reset();
+    return;
   }
-  at_ = now;
+  const auto before = static_cast<std::ptrdiff_t>(moment.index - moments_.front().index) - 1;
+  origins_ = CarryOrigins(origins_, (moments_.begin() + before)->step.frame.depth_m, moment.step);
 }
 
-void SegmentationStage::DropIfTooOld(const Moment& now) {
-  if (!source_) return;
-  const std::int64_t age_ns = now.frame.stamp_ns - source_->frame.stamp_ns;
-  if (NanosecondsToSeconds(age_ns) <= options_.max_age_s) return;
-  ++statistics_.expiries;
-  source_.reset();
-  instances_.clear();
+/// The masks, and the frames that are no longer needed.
+void SegmentationStage::DropIfTooOld() {
+  const Moment& now = moments_.back();
+  const auto is_too_old = [&](std::int64_t stamp_ns) {
+    return NanosecondsToSeconds(now.stamp_ns - stamp_ns) > options_.max_age_s;
+  };
+  if (source_ && is_too_old(source_->stamp_ns)) {
+    ++statistics_.expiries;
+    source_.reset();
+  }
+  const std::size_t oldest = async_ ? (source_ ? source_->index : 0) : now.index;
+  while (moments_.size() > 1 &&
+         (moments_.front().index < oldest || is_too_old(moments_.front().stamp_ns))) {
+    moments_.pop_front();
+  }
 }
 
-Segmentation SegmentationStage::Current(FrameId id, const Moment& now) {
+Segmentation SegmentationStage::Current(const RgbdFrame& frame) {
+  const Moment& now = moments_.back();
   Segmentation segmentation;
-  segmentation.frame_id = id;
-  for (const CarriedInstance& carried : instances_) {
-    segmentation.instances.push_back(carried.instance);
-  }
+  segmentation.frame_id = frame.id;
   segmentation.age_frames.reset();
-  if (source_) {
-    const std::size_t age = now.index - source_->index;
-    segmentation.age_frames = static_cast<int>(age);
-    age_sum_frames_ += static_cast<double>(age);
-  } else {
+  if (!source_) {
     ++statistics_.frames_without;
+    return segmentation;
   }
+  const std::size_t age = now.index - source_->index;
+  segmentation.age_frames = static_cast<int>(age);
+  age_sum_frames_ += static_cast<double>(age);
+  segmentation.instances =
+      age == 0 ? source_->masks.instances
+               : propagation_.Carry(source_->masks,
+                                    {origins_, now.step.frame.depth_m, frame.depth_m,
+                                     NanosecondsToSeconds(now.stamp_ns - source_->stamp_ns)});
   return segmentation;
 }
 

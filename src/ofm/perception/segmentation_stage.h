@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ofm/perception/async_segmenter.h"
-#include "ofm/perception/flow_frame.h"
+#include "ofm/perception/lattice_flow.h"
 #include "ofm/perception/segmentation_schedule.h"
 
 namespace ofm {
@@ -29,42 +29,51 @@ struct SegmentationStatistics {
 /// `wait` with every_nth = 1 gives what the segmenter gives. Serves one thread.
 class SegmentationStage {
  public:
-  /// `flow` must be what the pyramids are made with.
+  /// `cells` are those of the steps.
   SegmentationStage(std::unique_ptr<Segmenter> segmenter,
-                    const SegmentationScheduleOptions& options, const OpticalFlowOptions& flow);
+                    const SegmentationScheduleOptions& options, const IdealLattice& cells);
 
-  /// The instances in `frame`, with their age. Frames come in increasing order of time; `pyramid`
-  /// is of frame.gray and may be empty where NeedsPyramid() is false. Mode `wait`: throws what the
-  /// segmenter throws, unless told to continue. Mode `latest`: never waits, and throws only a
-  /// programmer's error.
-  Segmentation Process(const RgbdFrame& frame, const FlowPyramid& pyramid);
+  /// The instances in `frame`, with their age. `step` is that of the frame and may be empty where
+  /// NeedsFlow() is false. Masks are dropped where it has no flow, as at a jump back in time. Mode
+  /// `wait`: throws what the segmenter throws, unless told to continue. Mode `latest`: never waits,
+  /// and throws only a programmer's error.
+  Segmentation Process(const RgbdFrame& frame, const LatticeStep& step);
 
-  bool NeedsPyramid() const;
+  bool NeedsFlow() const;
   const std::vector<std::string>& class_names() const;
   SegmentationStatistics statistics() const;
 
  private:
-  /// A frame and its number.
+  /// A frame's number, time, and way from the frame before.
   struct Moment {
     std::size_t index = 0;
-    FlowFrame frame;
+    std::int64_t stamp_ns = 0;
+    LatticeStep step;
+  };
+  /// What the network saw last.
+  struct Source {
+    std::size_t index = 0;
+    std::int64_t stamp_ns = 0;
+    MaskSource masks;
   };
 
-  void RunNetwork(const RgbdFrame& frame, const Moment& now);
+  void RunNetwork(const RgbdFrame& frame);
   void TakeAnswer();
-  void CarryTo(const Moment& now);
-  void DropIfTooOld(const Moment& now);
+  void SetSource(const Moment& moment, std::vector<Instance> instances);
+  void CarryTo(const Moment& moment);
+  void DropIfTooOld();
   void ReportFailure(const std::string& error);
-  Segmentation Current(FrameId id, const Moment& now);
+  Segmentation Current(const RgbdFrame& frame);
 
   SegmentationScheduleOptions options_;
-  OpticalFlowOptions flow_;
-  std::unique_ptr<Segmenter> segmenter_;    // mode wait
-  std::unique_ptr<AsyncSegmenter> async_;   // mode latest
-  std::vector<CarriedInstance> instances_;  // as they are in at_
-  Moment at_;                               // of what is kept, the frame that instances_ are of
-  std::optional<Moment> source_;            // where the network saw them; empty = nothing to go by
-  std::deque<Moment> history_;              // mode latest: the frames before, the newest last
+  MaskPropagation propagation_;
+  std::unique_ptr<Segmenter> segmenter_;   // mode wait
+  std::unique_ptr<AsyncSegmenter> async_;  // mode latest
+  std::optional<Source> source_;           // empty = nothing to go by
+  cv::Mat origins_;                        // of the newest frame's cells in the source's frame
+  /// The newest frame last. Before it, mode latest: those younger than the source, of which an
+  /// answer may come; mode wait: the one before.
+  std::deque<Moment> moments_;
   SegmentationStatistics statistics_;
   double age_sum_frames_ = 0;
 };

@@ -37,10 +37,29 @@ struct Walk {
       return See(frame);
     });
   }
-  Segmentation Process(SegmentationStage& stage, std::uint32_t id) const {
-    const RgbdFrame frame = Frame(id);
-    return stage.Process(frame, BuildFlowPyramid(frame.gray, {}));
+  IdealLattice cells() const { return {scene.camera(), LatticeOptions().cell_px}; }
+};
+
+/// The stage with the flow that it needs.
+class FlowingStage {
+ public:
+  FlowingStage(const Walk& walk, std::unique_ptr<Segmenter> network,
+               const SegmentationScheduleOptions& options)
+      : walk_(walk),
+        flow_(walk.scene.camera(), {}),
+        stage_(std::move(network), options, flow_.lattice().cells()) {}
+
+  Segmentation Process(std::uint32_t id) { return Process(walk_.Frame(id)); }
+  Segmentation Process(const RgbdFrame& frame) {
+    return stage_.Process(frame, flow_.Process(frame));
   }
+  SegmentationStatistics statistics() const { return stage_.statistics(); }
+  bool NeedsFlow() const { return stage_.NeedsFlow(); }
+
+ private:
+  const Walk& walk_;
+  LatticeFlow flow_;
+  SegmentationStage stage_;
 };
 
 SegmentationScheduleOptions Wait(int every_nth) {
@@ -58,8 +77,8 @@ SegmentationScheduleOptions Latest() {
 
 TEST(SegmentationStage, WaitingForEveryFrameGivesWhatTheNetworkGives) {
   const Walk walk;
-  SegmentationStage stage(walk.Network(), Wait(1), {});
-  EXPECT_FALSE(stage.NeedsPyramid());
+  SegmentationStage stage(walk.Network(), Wait(1), walk.cells());
+  EXPECT_FALSE(stage.NeedsFlow());
   for (std::uint32_t id = 0; id < 3; ++id) {
     const RgbdFrame frame = walk.Frame(id);
     const Segmentation segmentation = stage.Process(frame, {});
@@ -75,9 +94,9 @@ TEST(SegmentationStage, WaitingForEveryFrameGivesWhatTheNetworkGives) {
 
 TEST(SegmentationStage, BetweenTheNetworksFramesMasksAreCarried) {
   const Walk walk;
-  SegmentationStage stage(walk.Network(), Wait(3), {});
+  FlowingStage stage(walk, walk.Network(), Wait(3));
   for (std::uint32_t id = 0; id < 7; ++id) {
-    const Segmentation segmentation = walk.Process(stage, id);
+    const Segmentation segmentation = stage.Process(id);
     EXPECT_EQ(segmentation.frame_id, FrameId(id));
     EXPECT_EQ(segmentation.age_frames, static_cast<int>(id % 3));
     ASSERT_EQ(segmentation.instances.size(), 1U);
@@ -92,12 +111,12 @@ TEST(SegmentationStage, BetweenTheNetworksFramesMasksAreCarried) {
 TEST(SegmentationStage, AWaitingNetworksErrorEndsTheRunUnlessTold) {
   const Walk walk;
   const auto always = [](std::uint32_t) { return true; };
-  SegmentationStage stage(walk.FailingNetwork(always), Wait(1), {});
-  EXPECT_THROW(walk.Process(stage, 0), Error);
+  FlowingStage stage(walk, walk.FailingNetwork(always), Wait(1));
+  EXPECT_THROW(stage.Process(0), Error);
   SegmentationScheduleOptions options = Wait(1);
   options.on_failure = SegmentationFailure::kContinue;
-  SegmentationStage patient(walk.FailingNetwork(always), options, {});
-  const Segmentation segmentation = walk.Process(patient, 0);
+  FlowingStage patient(walk, walk.FailingNetwork(always), options);
+  const Segmentation segmentation = patient.Process(0);
   EXPECT_TRUE(segmentation.instances.empty());
   EXPECT_FALSE(segmentation.age_frames);
   EXPECT_EQ(patient.statistics().failures, 1U);
@@ -110,10 +129,10 @@ TEST(SegmentationStage, MasksAreCarriedOverAFailureAndDroppedWhenTooOld) {
   SegmentationScheduleOptions options = Wait(1);
   options.on_failure = SegmentationFailure::kContinue;
   options.max_age_s = 0.1;  // three frames of 33 ms
-  SegmentationStage stage(walk.FailingNetwork([](std::uint32_t id) { return id > 0 && id < 6; }),
-                          options, {});
+  const auto fails = [](std::uint32_t id) { return id > 0 && id < 6; };
+  FlowingStage stage(walk, walk.FailingNetwork(fails), options);
   for (std::uint32_t id = 0; id < 8; ++id) {
-    const Segmentation segmentation = walk.Process(stage, id);
+    const Segmentation segmentation = stage.Process(id);
     const bool has_masks = id <= 3 || id >= 6;
     EXPECT_EQ(segmentation.instances.size(), has_masks ? 1U : 0U) << id;
     EXPECT_EQ(segmentation.age_frames.has_value(), has_masks) << id;
@@ -127,52 +146,48 @@ TEST(SegmentationStage, AProgrammersErrorIsNeverSwallowed) {
   const Walk walk;
   SegmentationScheduleOptions options = Wait(1);
   options.on_failure = SegmentationFailure::kContinue;
-  SegmentationStage stage(std::make_unique<ScriptedSegmenter>([](const RgbdFrame&) -> Segmentation {
-                            throw std::logic_error("x");
-                          }),
-                          options, {});
-  EXPECT_THROW(walk.Process(stage, 0), std::logic_error);
+  auto network = std::make_unique<ScriptedSegmenter>(
+      [](const RgbdFrame&) -> Segmentation { throw std::logic_error("x"); });
+  FlowingStage stage(walk, std::move(network), options);
+  EXPECT_THROW(stage.Process(0), std::logic_error);
 }
 
 TEST(SegmentationStage, TheLatestMasksAreCarriedFromTheirFrameToNow) {
   const Walk walk;
   Gate gate;
-  SegmentationStage stage(walk.Network(&gate), Latest(), {});
-  EXPECT_TRUE(stage.NeedsPyramid());
-  EXPECT_FALSE(walk.Process(stage, 0).age_frames) << "no frame waits for the network";
+  FlowingStage stage(walk, walk.Network(&gate), Latest());
+  EXPECT_TRUE(stage.NeedsFlow());
+  EXPECT_FALSE(stage.Process(0).age_frames) << "no frame waits for the network";
   gate.started.acquire();
   for (std::uint32_t id = 1; id < 4; ++id) {
-    EXPECT_TRUE(walk.Process(stage, id).instances.empty());
+    EXPECT_TRUE(stage.Process(id).instances.empty());
   }
   gate.allowed.release();
   gate.started.acquire();  // the network has answered for frame 0 and works on frame 3
   for (std::uint32_t id = 4; id < 6; ++id) {
-    const Segmentation segmentation = walk.Process(stage, id);
+    const Segmentation segmentation = stage.Process(id);
     EXPECT_EQ(segmentation.age_frames, static_cast<int>(id));
     ASSERT_EQ(segmentation.instances.size(), 1U);
     EXPECT_GT(Iou(segmentation.instances[0].mask, walk.Truth(id)), 0.9) << id;
   }
   gate.allowed.release();
   gate.started.acquire();  // frame 5
-  const Segmentation segmentation = walk.Process(stage, 6);
+  const Segmentation segmentation = stage.Process(6);
   EXPECT_EQ(segmentation.age_frames, 3);
   EXPECT_GT(Iou(segmentation.instances.at(0).mask, walk.Truth(6)), 0.9);
   gate.allowed.release(100);
 }
 
-TEST(SegmentationStage, AnAnswerOlderThanTheHistoryIsCarriedAllTheSame) {
+TEST(SegmentationStage, AnAnswerOfLongAgoIsCarriedAllTheSame) {
   const Walk walk;
   Gate gate;
-  SegmentationScheduleOptions options = Latest();
-  options.history = 2;
-  options.max_steps = 2;
-  SegmentationStage stage(walk.Network(&gate), options, {});
-  walk.Process(stage, 0);
+  FlowingStage stage(walk, walk.Network(&gate), Latest());
+  stage.Process(0);
   gate.started.acquire();
-  for (std::uint32_t id = 1; id < 7; ++id) walk.Process(stage, id);
+  for (std::uint32_t id = 1; id < 7; ++id) stage.Process(id);
   gate.allowed.release();
   gate.started.acquire();
-  const Segmentation segmentation = walk.Process(stage, 7);
+  const Segmentation segmentation = stage.Process(7);
   EXPECT_EQ(segmentation.age_frames, 7);
   ASSERT_EQ(segmentation.instances.size(), 1U);
   EXPECT_GT(Iou(segmentation.instances[0].mask, walk.Truth(7)), 0.85);
@@ -185,14 +200,14 @@ TEST(SegmentationStage, ANetworkThatSaysNothingLosesItsMasksInTheEnd) {
   gate.allowed.release();
   SegmentationScheduleOptions options = Latest();
   options.max_age_s = 0.15;
-  SegmentationStage stage(walk.Network(&gate), options, {});
-  walk.Process(stage, 0);
+  FlowingStage stage(walk, walk.Network(&gate), options);
+  stage.Process(0);
   gate.started.acquire();
   std::uint32_t id = 1;
   // The answer for frame 0 may need a moment; no other is allowed.
-  while (!walk.Process(stage, id).age_frames && id < 4) ++id;
+  while (!stage.Process(id).age_frames && id < 4) ++id;
   for (++id; id < 14; ++id) {
-    const Segmentation segmentation = walk.Process(stage, id);
+    const Segmentation segmentation = stage.Process(id);
     if (id < 5) continue;
     EXPECT_FALSE(segmentation.age_frames) << id;
     EXPECT_TRUE(segmentation.instances.empty()) << id;
@@ -212,13 +227,13 @@ TEST(SegmentationStage, ALatestNetworkThatThrowsIsCountedAndGoesOn) {
         return walk.See(frame);
       },
       &gate);
-  SegmentationStage stage(std::move(fails_first), Latest(), {});
+  FlowingStage stage(walk, std::move(fails_first), Latest());
   std::uint32_t id = 0;
-  walk.Process(stage, id);
+  stage.Process(id);
   gate.started.acquire();
-  walk.Process(stage, ++id);
+  stage.Process(++id);
   gate.started.acquire();  // frame 0 has failed, frame 1 is worked on
-  while (walk.Process(stage, ++id).instances.empty()) ASSERT_LT(id, 1000U);
+  while (stage.Process(++id).instances.empty()) ASSERT_LT(id, 1000U);
   EXPECT_EQ(stage.statistics().failures, 1U);
   EXPECT_EQ(stage.statistics().first_error, "out of memory");
   EXPECT_GE(stage.statistics().network_runs, 2U);
@@ -226,17 +241,29 @@ TEST(SegmentationStage, ALatestNetworkThatThrowsIsCountedAndGoesOn) {
 
 TEST(SegmentationStage, SameFramesGiveTheSameMasksWhereFramesWait) {
   const Walk walk;
-  SegmentationStage a(walk.Network(), Wait(4), {}), b(walk.Network(), Wait(4), {});
+  FlowingStage a(walk, walk.Network(), Wait(4)), b(walk, walk.Network(), Wait(4));
   for (std::uint32_t id = 0; id < 6; ++id) {
-    const Segmentation first = walk.Process(a, id), second = walk.Process(b, id);
+    const Segmentation first = a.Process(id), second = b.Process(id);
     ASSERT_EQ(first.instances.size(), second.instances.size());
     EXPECT_EQ(cv::countNonZero(first.instances.at(0).mask != second.instances.at(0).mask), 0);
   }
 }
 
-TEST(SegmentationStage, AMissingPyramidIsAProgrammersError) {
+TEST(SegmentationStage, AJumpBackInTimeDropsTheMasks) {
   const Walk walk;
-  SegmentationStage stage(walk.Network(), Wait(2), {});
+  FlowingStage stage(walk, walk.Network(), Wait(6));
+  for (std::uint32_t id = 3; id < 6; ++id) EXPECT_TRUE(stage.Process(id).age_frames);
+  for (std::uint32_t id = 0; id < 3; ++id) {
+    const Segmentation segmentation = stage.Process(id);
+    EXPECT_FALSE(segmentation.age_frames);
+    EXPECT_TRUE(segmentation.instances.empty());
+  }
+  EXPECT_TRUE(stage.Process(3).age_frames) << "the network ran again";
+}
+
+TEST(SegmentationStage, MissingFlowIsAProgrammersError) {
+  const Walk walk;
+  SegmentationStage stage(walk.Network(), Wait(2), walk.cells());
   EXPECT_THROW(stage.Process(walk.Frame(0), {}), std::logic_error);
 }
 

@@ -30,6 +30,7 @@ TEST(BackEnd, DoesNotAdjustAMapWhoseLastChangeWasCutShort) {
       EXPECT_THAT(back_end.times().stages(), Not(Contains(Key("final_adjustment"))));
     }
     ASSERT_TRUE(outcome.map);
+    EXPECT_EQ(outcome.map_is_whole, landmarks == 0);
     EXPECT_TRUE(outcome.semantic_map);
   }
 }

@@ -18,9 +18,11 @@ OrbOptions CrowdedOptions(const SlamOptions& options) {
 FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
                    std::unique_ptr<Segmenter> segmenter)
     : camera_(camera),
-      flow_(options.perception.flow),
       mode_(options.dynamics.mode),
-      segmentation_(std::move(segmenter), options.perception.schedule, flow_),
+      point_flow_(options.perception.flow),
+      lattice_flow_(camera, options.dynamics.motion.lattice),
+      segmentation_(std::move(segmenter), options.perception.schedule,
+                    lattice_flow_.lattice().cells()),
       dynamics_(options.dynamics, camera, segmentation_.class_names()),
       extractor_(options.features),
       crowded_extractor_(CrowdedOptions(options)),
@@ -29,26 +31,23 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   PreparedFrame prepared;
   prepared.frame = std::move(frame);
-  FlowPyramid pyramid;
-  if (mode_ == DynamicsMode::kPaper || segmentation_.NeedsPyramid()) {
-    ScopedStageTimer timer(times, "image_pyramid");
-    pyramid = BuildFlowPyramid(prepared.frame.gray, flow_);
+  LatticeStep step;
+  if (mode_ == DynamicsMode::kFull || segmentation_.NeedsFlow()) {
+    ScopedStageTimer timer(times, "dense_flow");
+    step = lattice_flow_.Process(prepared.frame);
   }
   {
     ScopedStageTimer timer(times, "segmentation");
-    prepared.segmentation = segmentation_.Process(prepared.frame, pyramid);
+    prepared.segmentation = segmentation_.Process(prepared.frame, step);
+  }
+  FlowResult flow;
+  if (mode_ == DynamicsMode::kPaper) {
+    ScopedStageTimer timer(times, "optical_flow");
+    flow = point_flow_.Advance(prepared.frame.gray, last_points_);
   }
   if (mode_ != DynamicsMode::kOff) {
-    FlowResult flow;
-    if (mode_ == DynamicsMode::kPaper) {
-      ScopedStageTimer timer(times, "optical_flow");
-      if (last_pyramid_.size == pyramid.size) {
-        flow = TrackPoints(last_pyramid_, pyramid, last_points_, flow_);
-      }
-      last_pyramid_ = std::move(pyramid);
-    }
     ScopedStageTimer timer(times, "dynamics");
-    prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow});
+    prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow, step});
   }
   ScopedStageTimer timer(times, "features");
   OrbExtractor& extractor =

@@ -19,7 +19,7 @@ struct PreparedFrame {
   std::shared_ptr<const FrameFeatures> features;
 };
 
-/// Segmentation, optical flow, dynamic mask and features, one after the other. Serves one thread.
+/// Optical flow, segmentation, dynamic mask and features, one after the other. Serves one thread.
 class FrontEnd {
  public:
   FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
@@ -33,14 +33,14 @@ class FrontEnd {
 
  private:
   PinholeCamera camera_;
-  OpticalFlowOptions flow_;
   DynamicsMode mode_;
+  OpticalFlow point_flow_;    // mode paper
+  LatticeFlow lattice_flow_;  // mode full, and where masks are carried
   SegmentationStage segmentation_;
   DynamicsStage dynamics_;
   OrbExtractor extractor_, crowded_extractor_;
   double crowded_share_;
   std::vector<Eigen::Vector2f> last_points_;  // key points of the last frame [px]
-  FlowPyramid last_pyramid_;                  // of the last frame
 };
 
 }  // namespace ofm

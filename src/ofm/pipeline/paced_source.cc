@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "ofm/base/check.h"
 #include "ofm/base/time.h"
 #include "ofm/base/timing.h"
 
@@ -19,41 +20,56 @@ PacingClock SteadyPacingClock() {
   return {SteadyTimeNs, wait};
 }
 
-PacedSource::PacedSource(std::unique_ptr<FrameSource> source, PacingClock clock)
-    : source_(std::move(source)), clock_(std::move(clock)) {}
+PacedSource::PacedSource(std::unique_ptr<FrameSource> source, PacingClock clock,
+                         std::size_t queue_frames)
+    : source_(std::move(source)), clock_(std::move(clock)), queue_frames_(queue_frames) {
+  OFM_CHECK(queue_frames > 0);
+}
 
 std::optional<RgbdFrame> PacedSource::Next() {
-  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-  std::optional<RgbdFrame> frame = ahead_ ? std::move(ahead_) : source_->Next();
-  ahead_.reset();
-  if (!frame) return {};
   if (!started_) {
+    if (!ReadAhead()) ThrowError();
+    if (!ahead_) return {};
     started_ = true;
     start_ns_ = clock_.now_ns();
-    first_stamp_ns_ = frame->stamp_ns;
+    first_stamp_ns_ = ahead_->stamp_ns;
+    return std::exchange(ahead_, std::nullopt);
+  }
+  ReadDue(clock_.now_ns());
+  if (!queue_.empty()) {
+    RgbdFrame frame = std::move(queue_.front());
+    queue_.pop_front();
     return frame;
   }
-  const std::int64_t now_ns = clock_.now_ns();
-  if (DueNs(*frame) > now_ns) {
-    clock_.wait_until_ns(DueNs(*frame));
-    return frame;
-  }
-  // Late: skip to the newest frame that is due.
-  while (ReadAhead() && DueNs(*ahead_) <= now_ns) {
-    frame = std::move(ahead_);
+  if (!ahead_) ThrowError();
+  if (!ahead_) return {};
+  clock_.wait_until_ns(DueNs(*ahead_));
+  return std::exchange(ahead_, std::nullopt);
+}
+
+void PacedSource::ReadDue(std::int64_t now_ns) {
+  while ((ahead_ || ReadAhead()) && DueNs(*ahead_) <= now_ns) {
+    queue_.push_back(std::move(*ahead_));
+    ahead_.reset();
+    if (queue_.size() <= queue_frames_) continue;
+    queue_.pop_front();
     ++dropped_;
   }
-  return frame;
 }
 
 bool PacedSource::ReadAhead() {
+  if (ended_) return false;
   try {
     ahead_ = source_->Next();
   } catch (const std::exception&) {
-    ahead_.reset();
     error_ = std::current_exception();
   }
-  return ahead_.has_value();
+  ended_ = !ahead_;
+  return !ended_;
+}
+
+void PacedSource::ThrowError() {
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 }  // namespace ofm

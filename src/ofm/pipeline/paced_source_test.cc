@@ -39,8 +39,10 @@ std::vector<RgbdFrame> Frames(std::uint32_t count) {
 
 class PacedSourceTest : public testing::Test {
  protected:
-  PacedSource Make(std::uint32_t count, std::function<void(std::size_t)> before = {}) {
-    return {std::make_unique<test::PlaySource>(Frames(count), std::move(before)), clock_.Get()};
+  PacedSource Make(std::uint32_t count, std::size_t queue_frames = 1,
+                   std::function<void(std::size_t)> before = {}) {
+    return {std::make_unique<test::PlaySource>(Frames(count), std::move(before)), clock_.Get(),
+            queue_frames};
   }
 
   MadeClock clock_;
@@ -71,7 +73,7 @@ TEST_F(PacedSourceTest, CountsFromTheFirstRequestNotFromItsConstruction) {
   EXPECT_THAT(clock_.waits, testing::ElementsAre(12100 * kMs));
 }
 
-TEST_F(PacedSourceTest, OfSeveralThatAreDueItGivesTheNewestAndCountsTheOthers) {
+TEST_F(PacedSourceTest, WhereOneFrameWaitsTheNewestIsGivenAndTheOthersAreCounted) {
   PacedSource source = Make(6);
   source.Next();
   clock_.now_ns += 350 * kMs;  // frames 1 to 3 are due
@@ -102,12 +104,59 @@ TEST_F(PacedSourceTest, TheLastFrameIsGivenHoweverLate) {
   EXPECT_FALSE(source.Next());
 }
 
+TEST_F(PacedSourceTest, ASlowFrameLosesNothingWhereFramesCanWait) {
+  PacedSource source = Make(8, 3);
+  source.Next();
+  clock_.now_ns += 350 * kMs;  // frames 1 to 3 are due
+  for (std::uint32_t i = 1; i < 7; ++i) {
+    EXPECT_EQ(source.Next()->id, FrameId(i));
+    clock_.now_ns += 20 * kMs;
+  }
+  EXPECT_EQ(source.dropped(), 0U);
+  EXPECT_THAT(clock_.waits, testing::ElementsAre(5500 * kMs, 5600 * kMs))
+      << "frame 4 was due while those before it were worked on";
+}
+
+TEST_F(PacedSourceTest, OfMoreThanCanWaitTheOldestAreDropped) {
+  PacedSource source = Make(9, 3);
+  source.Next();
+  clock_.now_ns += 550 * kMs;  // frames 1 to 5 are due
+  EXPECT_EQ(source.Next()->id, FrameId(3));
+  EXPECT_EQ(source.dropped(), 2U);
+  clock_.now_ns += 200 * kMs;  // 4 and 5 wait, 6 and 7 come
+  EXPECT_EQ(source.Next()->id, FrameId(5));
+  EXPECT_EQ(source.dropped(), 3U);
+  for (const std::uint32_t id : {6, 7, 8}) EXPECT_EQ(source.Next()->id, FrameId(id));
+  EXPECT_FALSE(source.Next());
+  EXPECT_FALSE(source.Next());
+}
+
+TEST_F(PacedSourceTest, FramesThatWaitAreGivenBeforeAnError) {
+  PacedSource source = Make(5, 4, [](std::size_t index) {
+    if (index == 3) throw Error("/x/3.png", "is truncated");
+  });
+  source.Next();
+  clock_.now_ns += 10'000 * kMs;
+  EXPECT_EQ(source.Next()->id, FrameId(1));
+  EXPECT_EQ(source.Next()->id, FrameId(2));
+  EXPECT_THROW(source.Next(), Error);
+}
+
+TEST_F(PacedSourceTest, AnErrorOfTheFirstFrameIsThrown) {
+  PacedSource source = Make(5, 4, [](std::size_t) { throw Error("/x/0.png", "is truncated"); });
+  EXPECT_THROW(source.Next(), Error);
+}
+
+TEST_F(PacedSourceTest, AQueueWithoutRoomIsAProgrammersError) {
+  EXPECT_THROW(Make(5, 0), std::logic_error);
+}
+
 TEST_F(PacedSourceTest, TellsTheSizeOfTheRecording) { EXPECT_EQ(Make(5).size(), 5U); }
 
 TEST_F(PacedSourceTest, AnEmptyRecordingHasNoFrame) { EXPECT_FALSE(Make(0).Next()); }
 
 TEST_F(PacedSourceTest, AFrameReadBeforeAnErrorIsGivenBeforeIt) {
-  PacedSource source = Make(5, [](std::size_t index) {
+  PacedSource source = Make(5, 1, [](std::size_t index) {
     if (index == 3) throw Error("/x/3.png", "is truncated");
   });
   source.Next();

@@ -1,4 +1,4 @@
-#include "ofm/dynamics/lattice_frame.h"
+#include "ofm/perception/lattice_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "ofm/base/error.h"
-#include "ofm/dynamics/test_frames.h"
+#include "ofm/sim/sim_sequence.h"
 
 namespace ofm {
 namespace {
@@ -78,9 +78,7 @@ TEST(MotionLattice, TextureIsWhereGreyValuesChange) {
 }
 
 TEST(MotionLattice, TextureThresholdIsThatOfTheOptions) {
-  MotionOptions options{.cell_px = 4};
-  options.flow.min_texture = 2000;
-  const MotionLattice lattice(MakeSimCamera(160, 120), options);
+  const MotionLattice lattice(MakeSimCamera(160, 120), {.cell_px = 4, .min_texture = 2000});
   EXPECT_EQ(cv::countNonZero(lattice.MakeFrame(MakeRgbdFrame({160, 120})).texture), 0);
 }
 

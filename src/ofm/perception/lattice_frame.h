@@ -1,4 +1,4 @@
-// A frame as motion is judged on it: small, undistorted, one cell per few pixels.
+// A frame as motion is looked at on it: small, undistorted, one cell per few pixels.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 #include "ofm/camera/ideal_lattice.h"
 #include "ofm/camera/rgbd_frame.h"
-#include "ofm/dynamics/motion_options.h"
+#include "ofm/perception/lattice_options.h"
 
 namespace ofm {
 
@@ -22,7 +22,7 @@ struct LatticeFrame {
 class MotionLattice {
  public:
   /// Throws Error for an odd options.cell_px.
-  MotionLattice(const PinholeCamera& camera, const MotionOptions& options);
+  MotionLattice(const PinholeCamera& camera, const LatticeOptions& options);
 
   LatticeFrame MakeFrame(const RgbdFrame& frame) const;
   const IdealLattice& cells() const { return cells_; }
@@ -31,7 +31,7 @@ class MotionLattice {
   cv::Size size() const { return cells_.size(); }
 
  private:
-  MotionOptions options_;
+  LatticeOptions options_;
   IdealLattice cells_, gray_;
 };
 

@@ -1,4 +1,4 @@
-#include "ofm/dynamics/mask_upsampling.h"
+#include "ofm/perception/mask_upsampling.h"
 
 #include <gtest/gtest.h>
 

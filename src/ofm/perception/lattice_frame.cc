@@ -1,4 +1,4 @@
-#include "ofm/dynamics/lattice_frame.h"
+#include "ofm/perception/lattice_frame.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,11 @@ cv::Mat FindTexture(const cv::Mat& gray, cv::Size cells, int min_texture) {
 
 }  // namespace
 
-MotionLattice::MotionLattice(const PinholeCamera& camera, const MotionOptions& options)
+MotionLattice::MotionLattice(const PinholeCamera& camera, const LatticeOptions& options)
     : options_(options), cells_(camera, options.cell_px), gray_(camera, options.cell_px / 2, 2) {
   if (options.cell_px % 2 != 0) {
-    throw Error(fmt::format("dynamics.motion.cell_px: must be even, not {}", options.cell_px));
+    throw Error(
+        fmt::format("dynamics.motion.lattice.cell_px: must be even, not {}", options.cell_px));
   }
 }
 
@@ -39,7 +40,7 @@ LatticeFrame MotionLattice::MakeFrame(const RgbdFrame& frame) const {
   const cv::Mat in_range =
       (result.depth_m >= options_.min_depth_m) & (result.depth_m <= options_.max_depth_m);
   result.depth_m.setTo(0, ~in_range);  // NaN is in no range
-  result.texture = FindTexture(result.gray, size(), options_.flow.min_texture);
+  result.texture = FindTexture(result.gray, size(), options_.min_texture);
   return result;
 }
 
