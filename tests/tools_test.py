@@ -13,6 +13,8 @@ import check_layers  # noqa: E402
 import check_rules  # noqa: E402
 import check_sizes  # noqa: E402
 import cover_camera  # noqa: E402
+import measure_loops  # noqa: E402
+import rearrange_sequence  # noqa: E402
 
 
 class MadeTree(unittest.TestCase):
@@ -124,6 +126,48 @@ class Sizes(MadeTree):
         self.write('src/ofm/base/a.cc', 'x\n' * 99)
         self.write('tests/integration/run.cc', 'x\n' * 60)
         self.assertEqual(self.problems(check_sizes), [])
+
+
+class Rearranging(MadeTree):
+
+    def setUp(self):
+        super().setUp()
+        times = [10, 11, 12, 13]
+        self.write('in/associations.txt', ''.join(f'{t} rgb/{t}.jpg {t}.25 depth/{t}.png\n' for t in times))
+        self.write('in/groundtruth.txt', '# x\n' + ''.join(f'{t} {t} 0 0 0 0 0 1\n' for t in times))
+
+    def rearranged(self, *ranges):
+        pairs = rearrange_sequence.read_pairs(self.root / 'in')
+        parts = rearrange_sequence.rearrange(pairs, ranges)
+        rearrange_sequence.write(self.root / 'out', self.root / 'in', parts)
+        return [(float(row[0]), row[1], float(row[2]))
+                for row in rearrange_sequence.read_table(self.root / 'out/associations.txt')]
+
+    def test_backward_parts_come_later_and_keep_depth_beside_colour(self):
+        frames = self.rearranged('1:3', '3:1')
+        self.assertEqual([file for _, file, _ in frames],
+                         ['rgb/11.jpg', 'rgb/12.jpg', 'rgb/12.jpg', 'rgb/11.jpg'])
+        self.assertEqual(frames, sorted(frames))
+        self.assertAlmostEqual(frames[0][2] - frames[0][0], 0.25)
+        self.assertAlmostEqual(frames[3][2] - frames[3][0], -0.25)
+
+    def test_ground_truth_is_rearranged_alike(self):
+        self.rearranged('1:3', '3:1')
+        rows = rearrange_sequence.read_table(self.root / 'out/groundtruth.txt')
+        self.assertEqual([row[1] for row in rows], ['11', '12', '12', '11'])
+        self.assertEqual([float(row[0]) for row in rows], sorted(float(row[0]) for row in rows))
+
+
+class Loops(unittest.TestCase):
+
+    def test_a_loop_is_held_against_ground_truth(self):
+        turned = (0, 0, 2 ** -0.5, 2 ** -0.5)  # a quarter about z
+        truth = [(0, ((1, 0, 0), turned)), (5, ((1, 2, 0), turned))]
+        loop = {'stamp': '5', 'place_stamp': '0', 'matches': 50, 'landmarks_fused': 40, 'drift_m': 0.1,
+                'drift_deg': 1, 'place_from_keyframe': [2, 0, 0, 0, 0, 0, 1]}
+        self.assertIn('wrong by 0.000 m, 0.00 deg', measure_loops.loop_line(loop, truth))
+        loop['place_from_keyframe'][0] = 1.5
+        self.assertIn('wrong by 0.500 m', measure_loops.loop_line(loop, truth))
 
 
 class CoverCamera(MadeTree):

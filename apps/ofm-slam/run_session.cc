@@ -74,6 +74,17 @@ std::optional<TrajectoryEvaluation> Evaluate(const std::optional<Truth>& truth,
   }
 }
 
+std::string FormatLoops(const RunOutcome& outcome) {
+  const LoopCounts& counts = outcome.loop_counts;
+  int fused = 0;
+  for (const LoopRecord& loop : outcome.loops) fused += loop.landmarks_fused;
+  return fmt::format(
+      "loops       {} closed, {} landmarks fused; of {} similar keyframes {} were inconsistent, {} "
+      "had few matches, {} no alignment, {} few inliers\n",
+      counts.closed, fused, counts.similar, counts.inconsistent, counts.few_matches,
+      counts.no_alignment, counts.few_inliers);
+}
+
 MapSettings SettingsOfMap(const PinholeCamera& camera, const OrbOptions& features) {
   return {camera, features.levels, features.scale_factor};
 }
@@ -182,6 +193,7 @@ std::string FormatSummary(const RunReport& report) {
   text += fmt::format("map         {} keyframes ({} made), {} landmarks, {} cloud points\n",
                       counts.keyframes, counts.keyframes_made, counts.landmarks,
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
+  text += FormatLoops(outcome);
   const RunDescription& description = report.description;
   if (!description.loaded_map.empty()) {
     text += fmt::format("loaded map  {}{}\n", description.loaded_map,

@@ -1,10 +1,10 @@
 #include "ofm/estimation/pnp.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ofm/base/check.h"
 #include "ofm/estimation/minimal_pose.h"
+#include "ofm/estimation/ransac.h"
 #include "ofm/estimation/reprojection.h"
 
 namespace ofm {
@@ -19,15 +19,6 @@ struct Hypothesis {
   double score = 0;  ///< sum of 1 - chi2 / gate over the inliers (Torr and Zisserman's MSAC)
   int inliers = 0;
 };
-
-/// Iterations after which a sample of three right matches was drawn with the confidence asked for
-/// (Fischler and Bolles 1981).
-int IterationsNeeded(double inlier_share, const PnpOptions& options) {
-  const double all_right = inlier_share * inlier_share * inlier_share;
-  if (all_right >= options.confidence) return 1;
-  const double needed = std::ceil(std::log(1 - options.confidence) / std::log1p(-all_right));
-  return needed < options.iterations ? static_cast<int>(needed) : options.iterations;
-}
 
 class PoseRansac {
  public:
@@ -59,7 +50,7 @@ class PoseRansac {
         const Hypothesis refined = Score(Refine(pose));
         if (refined.score > best.score) best = refined;
         const double share = static_cast<double>(best.inliers) / matches_.size();
-        needed = IterationsNeeded(share, options_);
+        needed = RansacIterations(share, {options_.iterations, options_.confidence});
       }
     }
     return best;

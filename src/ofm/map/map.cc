@@ -13,6 +13,23 @@ LandmarkId FollowReplacements(LandmarkId id, const std::vector<LandmarkId>& repl
   return id;
 }
 
+/// Pose of a keyframe of `keyframes` or of one that is anchored to such, over any number of others.
+template <class Keyframes>
+std::optional<RigidTransform> PoseByAnchors(const Keyframes& keyframes,
+                                            const std::map<KeyframeId, KeyframeAnchor>& anchors,
+                                            KeyframeId id) {
+  RigidTransform camera_from_anchor;
+  const Keyframe* keyframe = keyframes.Find(id);
+  while (keyframe == nullptr) {
+    const auto anchor = anchors.find(id);
+    if (anchor == anchors.end()) return {};
+    camera_from_anchor = camera_from_anchor * anchor->second.removed_from_keyframe;
+    id = anchor->second.keyframe;
+    keyframe = keyframes.Find(id);
+  }
+  return camera_from_anchor * keyframe->camera_from_world;
+}
+
 /// The descriptor with the least median distance to the others (Mur-Artal et al. 2015).
 Descriptor MostTypical(const std::vector<Descriptor>& descriptors) {
   std::size_t best = 0;
@@ -36,16 +53,11 @@ const Landmark* MapSnapshot::FindLandmark(LandmarkId id) const {
 }
 
 std::optional<RigidTransform> MapSnapshot::FindKeyframePose(KeyframeId id) const {
-  RigidTransform camera_from_anchor;
-  const Keyframe* keyframe = keyframes.Find(id);
-  while (keyframe == nullptr) {
-    const auto anchor = anchors.find(id);
-    if (anchor == anchors.end()) return {};
-    camera_from_anchor = camera_from_anchor * anchor->second.removed_from_keyframe;
-    id = anchor->second.keyframe;
-    keyframe = keyframes.Find(id);
-  }
-  return camera_from_anchor * keyframe->camera_from_world;
+  return PoseByAnchors(keyframes, anchors, id);
+}
+
+std::optional<RigidTransform> Map::FindKeyframePose(KeyframeId id) const {
+  return PoseByAnchors(keyframes_, anchors_, id);
 }
 
 Map::Map(OctaveScales scales, const MapSnapshot& snapshot)

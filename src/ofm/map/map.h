@@ -76,6 +76,8 @@ class Map {
   /// The landmark or what it was fused into; null where it is gone.
   const Landmark* FindLandmark(LandmarkId id) const;
   const Landmark& GetLandmark(LandmarkId id) const { return landmarks_.Get(id); }
+  /// Pose of a keyframe, also of one that was removed; empty where it never was.
+  std::optional<RigidTransform> FindKeyframePose(KeyframeId id) const;
   const VersionedTable<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
   const VersionedTable<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
   KeyframeId latest_keyframe() const { return latest_keyframe_; }

@@ -168,6 +168,7 @@ TEST(Map, PoseIsFoundThroughAChainOfAnchors) {
   map.SetKeyframePose(KeyframeId(2), map.GetKeyframe(KeyframeId(2)).camera_from_world * turned);
   map.RemoveKeyframe(KeyframeId(2), KeyframeId(3));
   EXPECT_LT(MaxDifference(*map.Snapshot()->FindKeyframePose(KeyframeId(1)), first * turned), 1e-12);
+  EXPECT_LT(MaxDifference(*map.FindKeyframePose(KeyframeId(1)), first * turned), 1e-12);
 }
 
 TEST(Map, PoseOfAKeyframeThatNeverWasIsEmpty) {

@@ -12,9 +12,9 @@ namespace {
 /// A copy of a part of the map, and how its indices map back to ids.
 struct MapExtract {
   BundleProblem problem;
-  std::vector<KeyframeId> keyframes;                            // by pose index
-  std::vector<LandmarkId> landmarks;                            // by point index
-  std::vector<std::pair<LandmarkId, KeyframeId>> observations;  // by observation index
+  std::vector<KeyframeId> keyframes;           // by pose index
+  std::vector<LandmarkId> landmarks;           // by point index
+  std::vector<LandmarkSighting> observations;  // by observation index
 };
 
 struct AdjustmentScope {
@@ -22,29 +22,32 @@ struct AdjustmentScope {
   std::set<LandmarkId> landmarks;
 };
 
-MapExtract Extract(const Map& map, const AdjustmentScope& scope, const MeasurementModel& model) {
+/// `Keyframes` and `Landmarks` are the tables of a map or of a snapshot.
+template <class Keyframes, class Landmarks>
+MapExtract Extract(const Keyframes& keyframes, const Landmarks& landmarks,
+                   const AdjustmentScope& scope, const MeasurementModel& model) {
   MapExtract extract;
   std::map<KeyframeId, int> pose_index;
   const auto add_pose = [&](KeyframeId id, bool fixed) {
     pose_index[id] = static_cast<int>(extract.keyframes.size());
     extract.keyframes.push_back(id);
-    extract.problem.poses.push_back({map.GetKeyframe(id).camera_from_world, fixed});
+    extract.problem.poses.push_back({keyframes.Find(id)->camera_from_world, fixed});
   };
   for (const KeyframeId id : scope.free) add_pose(id, false);
   for (const KeyframeId id : scope.fixed) add_pose(id, true);
   for (const LandmarkId id : scope.landmarks) {
-    const Landmark& landmark = map.GetLandmark(id);
+    const Landmark& landmark = *landmarks.Find(id);
     const int point = static_cast<int>(extract.landmarks.size());
     extract.landmarks.push_back(id);
     extract.problem.points_in_world.push_back(landmark.position_in_world);
     for (const Landmark::Observation& o : landmark.observations) {
       const auto pose = pose_index.find(o.keyframe);
       if (pose == pose_index.end()) continue;
-      const Keyframe& keyframe = map.GetKeyframe(o.keyframe);
+      const Keyframe& keyframe = *keyframes.Find(o.keyframe);
       PointObservation seen = model.Observe(*keyframe.features, o.feature);
       seen.weight *= landmark.static_probability;
       extract.problem.observations.push_back({pose->second, point, seen});
-      extract.observations.emplace_back(id, o.keyframe);
+      extract.observations.push_back({id, o.keyframe, o.feature});
     }
   }
   return extract;
@@ -61,17 +64,33 @@ void Apply(const MapExtract& extract, const BundleResult& result, Map& map) {
     map.SetLandmarkPosition(extract.landmarks[i], result.points_in_world[i]);
   }
   for (std::size_t i = 0; i < extract.observations.size(); ++i) {
-    const auto [landmark, keyframe] = extract.observations[i];
-    if (!result.inlier[i]) map.RemoveObservation(landmark, keyframe);
+    const LandmarkSighting& sighting = extract.observations[i];
+    if (!result.inlier[i]) map.RemoveObservation(sighting.landmark, sighting.keyframe);
   }
   for (const LandmarkId id : extract.landmarks) {
     if (map.landmarks().Find(id) != nullptr) map.RefreshLandmark(id);
   }
 }
 
+MapCorrection MakeCorrection(const MapExtract& extract, const BundleResult& result) {
+  MapCorrection correction;
+  for (std::size_t i = 0; i < extract.keyframes.size(); ++i) {
+    correction.keyframes[extract.keyframes[i]] = {extract.problem.poses[i].camera_from_world,
+                                                  result.camera_from_world[i]};
+  }
+  for (std::size_t i = 0; i < extract.landmarks.size(); ++i) {
+    correction.landmarks[extract.landmarks[i]] = {extract.problem.points_in_world[i],
+                                                  result.points_in_world[i]};
+  }
+  for (std::size_t i = 0; i < extract.observations.size(); ++i) {
+    if (!result.inlier[i]) correction.wrong.push_back(extract.observations[i]);
+  }
+  return correction;
+}
+
 void Solve(const AdjustmentScope& scope, const BundleOptions& bundle, const MeasurementModel& model,
            std::stop_token stop, Map& map) {
-  const MapExtract extract = Extract(map, scope, model);
+  const MapExtract extract = Extract(map.keyframes(), map.landmarks(), scope, model);
   const BundleResult result = AdjustBundle(model.camera, extract.problem, bundle, stop);
   if (result.usable) Apply(extract, result, map);
 }
@@ -118,16 +137,28 @@ void AdjustLocally(Map& map, KeyframeId current, const MeasurementModel& model,
   if (!scope.free.empty()) Solve(scope, options.bundle, model, stop, map);
 }
 
-void AdjustWholeMap(Map& map, const MeasurementModel& model, const MappingOptions& options,
-                    std::stop_token stop) {
-  if (map.keyframes().size() == 0) return;
+std::optional<MapCorrection> ComputeWholeAdjustment(const MapSnapshot& map,
+                                                    const MeasurementModel& model,
+                                                    const BundleOptions& bundle,
+                                                    std::stop_token stop) {
   AdjustmentScope scope;
-  map.keyframes().ForEach([&](const Keyframe& keyframe) { scope.free.insert(keyframe.id); });
+  map.keyframes.ForEach([&](const Keyframe& keyframe) { scope.free.insert(keyframe.id); });
+  if (scope.free.empty()) return {};
   const KeyframeId oldest = *scope.free.begin();
   scope.free.erase(oldest);
   scope.fixed.insert(oldest);
-  map.landmarks().ForEach([&](const Landmark& landmark) { scope.landmarks.insert(landmark.id); });
-  Solve(scope, options.final_bundle, model, stop, map);
+  map.landmarks.ForEach([&](const Landmark& landmark) { scope.landmarks.insert(landmark.id); });
+  const MapExtract extract = Extract(map.keyframes, map.landmarks, scope, model);
+  const BundleResult result = AdjustBundle(model.camera, extract.problem, bundle, stop);
+  if (!result.usable) return {};
+  return MakeCorrection(extract, result);
+}
+
+void AdjustWholeMap(Map& map, const MeasurementModel& model, const MappingOptions& options,
+                    std::stop_token stop) {
+  const std::optional<MapCorrection> correction =
+      ComputeWholeAdjustment(*map.Snapshot(), model, options.final_bundle, stop);
+  if (correction) ApplyCorrection(*correction, map);
 }
 
 }  // namespace ofm

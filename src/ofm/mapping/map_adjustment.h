@@ -1,9 +1,10 @@
 // Bundle adjustment of a part of the map, or of all of it.
 #pragma once
 
+#include <optional>
 #include <stop_token>
 
-#include "ofm/map/map.h"
+#include "ofm/map/map_correction.h"
 #include "ofm/mapping/options.h"
 #include "ofm/tracking/measurement.h"
 
@@ -14,7 +15,14 @@ namespace ofm {
 void AdjustLocally(Map& map, KeyframeId current, const MeasurementModel& model,
                    const MappingOptions& options, std::stop_token stop = {});
 
-/// Adjusts all keyframes but the first, and all landmarks.
+/// What adjusting all keyframes but the first and all landmarks of a snapshot comes to; empty where
+/// the solver failed or `stop` was requested. May run while the map is changed.
+std::optional<MapCorrection> ComputeWholeAdjustment(const MapSnapshot& map,
+                                                    const MeasurementModel& model,
+                                                    const BundleOptions& bundle,
+                                                    std::stop_token stop = {});
+
+/// The same on the map itself.
 void AdjustWholeMap(Map& map, const MeasurementModel& model, const MappingOptions& options,
                     std::stop_token stop = {});
 

@@ -125,6 +125,19 @@ TEST_F(MapAdjustment, EmptyMapStaysEmpty) {
   EXPECT_EQ(empty.keyframes().size(), 0U);
 }
 
+TEST_F(MapAdjustment, OfASnapshotHoldsForTheMapThatWentOn) {
+  Disturb();
+  const auto snapshot = made_.map.Snapshot();
+  made_.Add(made_.world.Frame(30));
+  made_.map.RemoveKeyframe(KeyframeId(3), KeyframeId(2));
+  const auto correction =
+      ComputeWholeAdjustment(*snapshot, made_.world.model(), options_.final_bundle);
+  ASSERT_TRUE(correction);
+  ApplyCorrection(*correction, made_.map);
+  for (const std::uint32_t i : {1, 2, 4, 5}) EXPECT_LT(Error_m(i), 2e-3) << i;
+  EXPECT_EQ(FindProblem(made_.map), "");
+}
+
 TEST_F(MapAdjustment, StoppedOneChangesNothing) {
   Disturb();
   const double before = made_.PoseError_m();
@@ -132,6 +145,8 @@ TEST_F(MapAdjustment, StoppedOneChangesNothing) {
   source.request_stop();
   AdjustWholeMap(made_.map, made_.world.model(), options_, source.get_token());
   AdjustLocally(made_.map, KeyframeId(5), made_.world.model(), options_, source.get_token());
+  EXPECT_FALSE(
+      ComputeWholeAdjustment(*made_.map.Snapshot(), made_.world.model(), {}, source.get_token()));
   EXPECT_EQ(made_.PoseError_m(), before);
 }
 

@@ -43,10 +43,10 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*candidate.features));
   keyframe.landmarks = candidate.landmarks;
   keyframe.camera_from_world = candidate.camera_from_world;
-  // The reference may have been adjusted since the candidate was tracked against it.
-  const Keyframe* reference = map_.FindKeyframe(candidate.reference);
-  if (reference != nullptr) {
-    keyframe.camera_from_world = candidate.camera_from_reference * reference->camera_from_world;
+  // The reference may have been adjusted, or removed, since the candidate was tracked against it.
+  const auto reference_pose = map_.FindKeyframePose(candidate.reference);
+  if (reference_pose) {
+    keyframe.camera_from_world = candidate.camera_from_reference * *reference_pose;
   }
   const KeyframeId id = map_.AddKeyframe(std::move(keyframe));
   const std::vector<LandmarkId> seen = map_.GetKeyframe(id).landmarks;
@@ -118,6 +118,10 @@ void Mapper::Refine(std::stop_token stop) {
     AdjustLocally(map_, current, model_, options_, stop);
   }
   RemoveRedundantKeyframes(map_, current, model_, options_);
+}
+
+CorrectionReport Mapper::Apply(const MapCorrection& correction) {
+  return ApplyCorrection(correction, map_);
 }
 
 void Mapper::AdjustAll(std::stop_token stop) {

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "ofm/map/map.h"
+#include "ofm/map/map_correction.h"
 #include "ofm/mapping/options.h"
 #include "ofm/tracking/measurement.h"
 #include "ofm/tracking/tracking_types.h"
@@ -26,6 +26,8 @@ class Mapper {
   void Refine(std::stop_token stop = {});
   /// Bundle adjustment over the whole map.
   void AdjustAll(std::stop_token stop = {});
+  /// Takes over what was found out about an earlier snapshot.
+  CorrectionReport Apply(const MapCorrection& correction);
 
   const Map& map() const { return map_; }
   std::shared_ptr<const MapSnapshot> Snapshot() { return map_.Snapshot(); }

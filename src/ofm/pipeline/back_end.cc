@@ -16,6 +16,11 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
   return labelled;
 }
 
+BackEnd::BackEnd(Slam& slam, LoopAdjustment adjustment)
+    : slam_(slam),
+      adjustment_(adjustment),
+      background_(slam.model(), slam.options().mapping.final_bundle) {}
+
 std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   KeyframeId id;
   is_whole_ = false;
@@ -25,6 +30,7 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   }
   is_whole_ = true;
   keyframe_of_frame_[job.candidate.frame_id] = id;
+  unseen_.push_back(id);
   if (!job.labelled.depth_m.empty()) {
     ScopedStageTimer timer(times_, "semantic_cloud");
     job.labelled.id = id;
@@ -34,16 +40,74 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
 }
 
 std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
-  ScopedStageTimer timer(times_, "mapping");
   is_whole_ = false;
-  slam_.mapper().Refine(stop);
+  TakeAdjustment(background_.Take());
+  {
+    ScopedStageTimer timer(times_, "mapping");
+    slam_.mapper().Refine(stop);
+  }
+  std::shared_ptr<const MapSnapshot> map = slam_.mapper().Snapshot();
+  if (slam_.options().loop.enabled) map = CloseLoops(std::move(map));
   is_whole_ = true;
-  return slam_.mapper().Snapshot();
+  return map;
+}
+
+/// Looks for loops at the keyframes that are new; gives the snapshot after them.
+std::shared_ptr<const MapSnapshot> BackEnd::CloseLoops(std::shared_ptr<const MapSnapshot> map) {
+  for (const KeyframeId id : unseen_) {
+    std::optional<LoopClosure> closure;
+    {
+      ScopedStageTimer timer(times_, "loop_detection");
+      closure = slam_.loop_closer().Process(*map, id);
+    }
+    if (!closure) continue;
+    Apply(*closure, *map);
+    if (slam_.options().loop.full_adjustment) AdjustAfterLoop();
+    map = slam_.mapper().Snapshot();
+  }
+  unseen_.clear();
+  return map;
+}
+
+void BackEnd::Apply(const LoopClosure& closure, const MapSnapshot& map) {
+  ScopedStageTimer timer(times_, "loop_correction");
+  const Keyframe& keyframe = *map.keyframes.Find(closure.loop.keyframe);
+  const RigidTransform drift =
+      closure.loop.camera_from_world * keyframe.camera_from_world.Inverse();
+  LoopRecord record;
+  record.keyframe_stamp_ns = keyframe.stamp_ns;
+  record.place_stamp_ns = map.keyframes.Find(closure.loop.place)->stamp_ns;
+  record.place_from_keyframe = closure.loop.place_from_keyframe;
+  record.matches = closure.loop.matches.size();
+  record.drift_m = drift.translation().norm();
+  record.drift_rad = drift.RotationAngle();
+  record.landmarks_fused = slam_.mapper().Apply(closure.correction).landmarks_fused;
+  loops_.push_back(record);
+}
+
+void BackEnd::AdjustAfterLoop() {
+  std::shared_ptr<const MapSnapshot> map = slam_.mapper().Snapshot();
+  background_.Start(std::move(map));
+  if (adjustment_ == LoopAdjustment::kAtOnce) TakeAdjustment(background_.Wait());
+}
+
+void BackEnd::TakeAdjustment(std::optional<FinishedAdjustment> finished) {
+  if (!finished) return;
+  times_.Merge(finished->times);
+  if (finished->correction) slam_.mapper().Apply(*finished->correction);
 }
 
 void BackEnd::Finish(RunOutcome& outcome) {
   outcome.map = slam_.mapper().Snapshot();
+  outcome.loops = loops_;
+  outcome.loop_counts = slam_.loop_closer().counts();
   outcome.map_is_whole = is_whole_;
+  if (slam_.options().final_adjustment) {
+    background_.Cancel();  // the final one does it all
+  } else if (is_whole_) {
+    TakeAdjustment(background_.Wait());
+    outcome.map = slam_.mapper().Snapshot();
+  }
   // A loaded map to which nothing was added stays as it is.
   if (slam_.options().final_adjustment && is_whole_ && !keyframe_of_frame_.empty()) {
     ScopedStageTimer timer(times_, "final_adjustment");

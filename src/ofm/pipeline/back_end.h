@@ -4,6 +4,7 @@
 #include <map>
 
 #include "ofm/base/timing.h"
+#include "ofm/pipeline/background_adjustment.h"
 #include "ofm/pipeline/run_outcome.h"
 #include "ofm/pipeline/slam.h"
 
@@ -19,18 +20,24 @@ struct KeyframeJob {
 /// The images and labels of a frame as the semantic map takes them.
 LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
 
-/// Runs the mapping and dense stages of `slam` for one keyframe at a time. Serves one thread. Once
-/// Insert or Refine has thrown, only Finish may follow.
+/// When the whole map is adjusted after a loop.
+enum class LoopAdjustment {
+  kAtOnce,        ///< before the next keyframe: reproducible
+  kInBackground,  ///< while further keyframes come; a newer loop cancels it
+};
+
+/// Runs the mapping, loop and dense stages of `slam` for one keyframe at a time. Serves one thread.
+/// Once Insert or Refine has thrown, only Finish may follow.
 class BackEnd {
  public:
-  explicit BackEnd(Slam& slam) : slam_(slam) {}
+  explicit BackEnd(Slam& slam, LoopAdjustment adjustment = LoopAdjustment::kAtOnce);
   virtual ~BackEnd() = default;
   BackEnd(const BackEnd&) = delete;
   BackEnd& operator=(const BackEnd&) = delete;
 
   /// Puts the keyframe into the map; gives the snapshot that tracking can use at once.
   virtual std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
-  /// Everything that may take its time; gives the refined snapshot.
+  /// Everything that may take its time, loops included; gives the refined snapshot.
   virtual std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
   /// Final adjustment and the semantic map, from the poses that then are known. `outcome` has a map
   /// even where this throws. A map whose last change was cut short by an error is not adjusted.
@@ -41,7 +48,16 @@ class BackEnd {
   const StageTimes& times() const { return times_; }
 
  private:
+  std::shared_ptr<const MapSnapshot> CloseLoops(std::shared_ptr<const MapSnapshot> map);
+  void Apply(const LoopClosure& closure, const MapSnapshot& map);
+  void AdjustAfterLoop();
+  void TakeAdjustment(std::optional<FinishedAdjustment> finished);
+
   Slam& slam_;
+  LoopAdjustment adjustment_;
+  BackgroundAdjustment background_;
+  std::vector<KeyframeId> unseen_;  // keyframes in which no loop was looked for yet
+  std::vector<LoopRecord> loops_;
   StageTimes times_;
   std::map<FrameId, KeyframeId> keyframe_of_frame_;
   bool is_whole_ = true;  // no change of the map was cut short

@@ -7,6 +7,7 @@
 #include "ofm/dense/dense_options.h"
 #include "ofm/dynamics/dynamics_options.h"
 #include "ofm/features/orb_extractor.h"
+#include "ofm/loop/options.h"
 #include "ofm/mapping/options.h"
 #include "ofm/perception/perception_options.h"
 #include "ofm/tracking/measurement.h"
@@ -25,6 +26,7 @@ struct SlamOptions {
   MeasurementOptions measurement;
   TrackingOptions tracking;
   MappingOptions mapping;
+  LoopOptions loop;
   DenseOptions dense;
 
   template <class Self, class Visitor>
@@ -41,6 +43,7 @@ struct SlamOptions {
     visit("measurement", self.measurement);
     visit("tracking", self.tracking);
     visit("mapping", self.mapping);
+    visit("loop", self.loop);
     visit("dense", self.dense);
   }
 };

@@ -7,6 +7,7 @@
 #include <opencv2/core/version.hpp>
 
 #include "ofm/base/error.h"
+#include "ofm/base/time.h"
 #include "ofm/dense/octree_file.h"
 #include "ofm/dense/ply_file.h"
 #include "ofm/io/atomic_file.h"
@@ -39,6 +40,34 @@ Json CountsJson(const RunCounts& counts) {
           {"keyframes", counts.keyframes},
           {"landmarks", counts.landmarks},
           {"mean_masked_share", counts.mean_masked_share}};
+}
+
+Json PoseJson(const RigidTransform& pose) {
+  const Eigen::Vector3d& t = pose.translation();
+  const Eigen::Quaterniond& q = pose.rotation();
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Json LoopsJson(const RunOutcome& outcome) {
+  const LoopCounts& counts = outcome.loop_counts;
+  Json json = {{"closed", counts.closed},
+               {"keyframes", counts.keyframes},
+               {"similar", counts.similar},
+               {"rejected_inconsistent", counts.inconsistent},
+               {"rejected_few_matches", counts.few_matches},
+               {"rejected_no_alignment", counts.no_alignment},
+               {"rejected_few_inliers", counts.few_inliers},
+               {"list", Json::array()}};
+  for (const LoopRecord& loop : outcome.loops) {
+    json["list"].push_back({{"stamp", FormatSeconds(loop.keyframe_stamp_ns)},
+                            {"place_stamp", FormatSeconds(loop.place_stamp_ns)},
+                            {"place_from_keyframe", PoseJson(loop.place_from_keyframe)},
+                            {"matches", loop.matches},
+                            {"drift_m", loop.drift_m},
+                            {"drift_deg", loop.drift_rad * 180 / M_PI},
+                            {"landmarks_fused", loop.landmarks_fused}});
+  }
+  return json;
 }
 
 Json StagesJson(const StageTimes& times) {
@@ -109,6 +138,7 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   if (!description.saved_map.empty()) json["saved_map"] = description.saved_map;
   json["error"] = outcome.error.empty() ? Json(nullptr) : Json(outcome.error);
   json["counts"] = CountsJson(outcome.counts);
+  json["loops"] = LoopsJson(outcome);
   if (description.culling) json["culling"] = CullingToJson(*description.culling);
   if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
   if (description.live_evaluation) {

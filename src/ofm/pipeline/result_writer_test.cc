@@ -158,6 +158,30 @@ TEST(SummaryJson, HasCountsErrorsTimesVersionsAndSeed) {
   EXPECT_GT(summary["peak_memory_mib"], 1);
 }
 
+TEST(SummaryJson, TellsOfLoops) {
+  RunOutcome outcome;
+  outcome.loop_counts.closed = 1;
+  outcome.loop_counts.similar = 9;
+  outcome.loop_counts.no_alignment = 3;
+  LoopRecord loop;
+  loop.keyframe_stamp_ns = 12'500'000'000;
+  loop.place_stamp_ns = 2'000'000'000;
+  loop.place_from_keyframe = {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.5, 0, -1)};
+  loop.matches = 77;
+  loop.landmarks_fused = 60;
+  outcome.loops = {loop};
+  const json loops = json::parse(SummaryJson(outcome, {}, {}))["loops"];
+  EXPECT_EQ(loops["closed"], 1);
+  EXPECT_EQ(loops["similar"], 9);
+  EXPECT_EQ(loops["rejected_no_alignment"], 3);
+  ASSERT_EQ(loops["list"].size(), 1U);
+  EXPECT_EQ(loops["list"][0]["stamp"], "12.500000");
+  EXPECT_EQ(loops["list"][0]["place_stamp"], "2.000000");
+  EXPECT_EQ(loops["list"][0]["matches"], 77);
+  EXPECT_EQ(loops["list"][0]["landmarks_fused"], 60);
+  EXPECT_EQ(loops["list"][0]["place_from_keyframe"], json({0.5, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0}));
+}
+
 TEST(SummaryJson, TellsWhyARunEndedEarly) {
   RunOutcome outcome;
   outcome.error = "/x/7.png: is \"truncated\"";

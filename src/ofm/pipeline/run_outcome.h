@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ofm/base/timing.h"
 #include "ofm/dense/semantic_mapper.h"
 #include "ofm/geometry/trajectory.h"
+#include "ofm/loop/loop_closer.h"
 #include "ofm/map/map.h"
 
 namespace ofm {
@@ -22,6 +24,15 @@ struct RunCounts {
   double mean_masked_share = 0;  ///< of the pixels, 0 to 1
 };
 
+/// A loop as it was closed.
+struct LoopRecord {
+  std::int64_t keyframe_stamp_ns = 0, place_stamp_ns = 0;
+  RigidTransform place_from_keyframe;  ///< of the two cameras, as measured
+  std::size_t matches = 0;             ///< landmarks of the place that the keyframe shows
+  double drift_m = 0, drift_rad = 0;   ///< by which the keyframe was off
+  int landmarks_fused = 0;
+};
+
 struct RunOutcome {
   Trajectory trajectory;       ///< world_from_camera of every tracked frame, after optimisation
   Trajectory live_trajectory;  ///< what was known at the time of each frame
@@ -32,6 +43,8 @@ struct RunOutcome {
   std::vector<std::string> class_names;
   StageTimes times;
   RunCounts counts;
+  LoopCounts loop_counts;
+  std::vector<LoopRecord> loops;
   double wall_s = 0, process_cpu_s = 0;
   std::string error;  ///< why the run ended before its source did; empty where it did not
 };

@@ -1,6 +1,7 @@
 #include "ofm/pipeline/slam.h"
 
 #include "ofm/base/error.h"
+#include "ofm/features/default_vocabulary.h"
 
 namespace ofm {
 namespace {
@@ -23,9 +24,11 @@ Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
            std::unique_ptr<Segmenter> segmenter, std::shared_ptr<const MapSnapshot> map)
     : camera_(camera),
       options_(options),
+      model_(MakeModel(camera, options)),
       front_end_(camera, options, std::move(segmenter)),
-      tracker_(MakeModel(camera, options), options.tracking, options.seed),
-      mapper_(MakeModel(camera, options), options.mapping, *RequireMap(std::move(map), options)),
+      tracker_(model_, options.tracking, options.seed),
+      mapper_(model_, options.mapping, *RequireMap(std::move(map), options)),
+      loop_closer_(model_, options.loop, DefaultVocabulary(), options.seed),
       semantic_mapper_(camera, options.dense) {}
 
 }  // namespace ofm

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "ofm/dense/semantic_mapper.h"
+#include "ofm/loop/loop_closer.h"
 #include "ofm/mapping/mapper.h"
 #include "ofm/pipeline/front_end.h"
 #include "ofm/pipeline/options.h"
@@ -23,16 +24,20 @@ class Slam {
   FrontEnd& front_end() { return front_end_; }
   Tracker& tracker() { return tracker_; }
   Mapper& mapper() { return mapper_; }
+  LoopCloser& loop_closer() { return loop_closer_; }
   SemanticMapper& semantic_mapper() { return semantic_mapper_; }
   const SlamOptions& options() const { return options_; }
   const PinholeCamera& camera() const { return camera_; }
+  const MeasurementModel& model() const { return model_; }
 
  private:
   PinholeCamera camera_;
   SlamOptions options_;
+  MeasurementModel model_;
   FrontEnd front_end_;
   Tracker tracker_;
   Mapper mapper_;
+  LoopCloser loop_closer_;
   SemanticMapper semantic_mapper_;
 };
 

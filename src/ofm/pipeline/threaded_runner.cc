@@ -98,7 +98,7 @@ void Track(TrackingLoop& tracking, Exchange& exchange) {
 }  // namespace
 
 RunOutcome RunThreaded(Slam& slam, FrameSource& source, const RunContext& context) {
-  BackEnd back_end(slam);
+  BackEnd back_end(slam, LoopAdjustment::kInBackground);
   return RunThreaded(slam, back_end, source, context);
 }
 
