@@ -3,18 +3,30 @@
 
 #include <functional>
 #include <memory>
-#include <semaphore>
 #include <string>
 #include <vector>
 
+#include "ofm/base/bounded_queue.h"
 #include "ofm/perception/segmenter.h"
 
 namespace ofm::test {
 
+/// A counting semaphore. GCC 12's std::counting_semaphore can sleep for ever (GCC bug 104928).
+class Signal {
+ public:
+  void release(int count = 1) {
+    for (int i = 0; i < count; ++i) given_.Push(0);
+  }
+  void acquire() { given_.Pop(); }
+
+ private:
+  BoundedQueue<char> given_{1000};
+};
+
 /// What the segmenter in another thread and the test share.
 struct Gate {
-  std::counting_semaphore<1000> started{0};  ///< one for each run that began
-  std::counting_semaphore<1000> allowed{0};  ///< one for each run that may end
+  Signal started;  ///< one for each run that began
+  Signal allowed;  ///< one for each run that may end
 };
 
 /// Calls a function on each frame; with a gate, when the test allows.

@@ -141,7 +141,8 @@ TEST_F(StoredMapRun, ACoveredCameraIsLostAndFindsItsPlaceAgain) {
       RunSequential(*test::MakeSlam(*recording_, Options()), source, context);
   for (int i = 0; i < kFrames; ++i) {
     const bool covered = i >= kFirst && i < kFirst + kCovered;
-    EXPECT_EQ(statuses[i], covered                  ? TrackingStatus::kLost
+    EXPECT_EQ(statuses[i], i == kFirst              ? TrackingStatus::kReckoned
+                           : covered                ? TrackingStatus::kLost
                            : i == 0                 ? TrackingStatus::kInitialized
                            : i == kFirst + kCovered ? TrackingStatus::kRelocalized
                                                     : TrackingStatus::kTracked)
