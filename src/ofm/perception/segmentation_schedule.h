@@ -42,7 +42,7 @@ struct SegmentationScheduleOptions {
   int every_nth = 1;  ///< the network runs on each n-th frame; masks are carried to those between
   SegmentationFailure on_failure = SegmentationFailure::kStop;  ///< in mode wait
   double max_age_s = 1;  ///< masks whose frame is older are dropped
-  int niceness = 10;     ///< by which the network's thread is less urgent (Linux)
+  int niceness = 19;     ///< by which the network's thread is less urgent (Linux)
   MaskPropagationOptions propagation = {};
 
   template <class Self, class Visitor>
