@@ -38,10 +38,10 @@ std::vector<cv::Point> ChooseCells(const LatticePair& pair, int block) {
   return cells;
 }
 
-/// The chosen cells' points and where flow with an error of `pixel_sigma` [px] found them.
+/// The chosen cells' points and where flow found them.
 std::vector<PoseObservation> Observe(const PinholeCamera& camera, const LatticePair& pair,
-                                     const MotionOptions& options, double pixel_sigma) {
-  const double sigma_cells = pixel_sigma / options.lattice.cell_px;
+                                     const MotionOptions& options) {
+  const double sigma_cells = options.camera_motion.pixel_sigma / options.lattice.cell_px;
   std::vector<PoseObservation> observations;
   for (const cv::Point& cell : ChooseCells(pair, options.camera_motion.block_cells)) {
     const cv::Vec2f flow = pair.flow.at<cv::Vec2f>(cell);
@@ -59,26 +59,23 @@ std::vector<PoseObservation> Observe(const PinholeCamera& camera, const LatticeP
   return observations;
 }
 
-/// The motion that most points agree with, to within flow's error `pixel_sigma` [px].
-CameraMotion EstimateWithSigma(const PinholeCamera& camera, const LatticePair& pair,
-                               const RigidTransform& predicted, const MotionOptions& options,
-                               double pixel_sigma, RandomEngine& engine) {
-  const CameraMotionOptions& motion = options.camera_motion;
+/// The motion that most observations agree with.
+CameraMotion EstimateFrom(const std::vector<PoseObservation>& observations,
+                          const PinholeCamera& camera, const RigidTransform& predicted,
+                          const CameraMotionOptions& options, RandomEngine& engine) {
   CameraMotion result{predicted};
-  const auto observations = Observe(camera, pair, options, pixel_sigma);
   const auto consider = [&](const PoseEstimate& pose) {
     const double share = static_cast<double>(pose.inlier_count) / observations.size();
-    if (!pose.converged || pose.inlier_count < motion.min_points || share <= result.inlier_share) {
+    if (!pose.converged || pose.inlier_count < options.min_points || share <= result.inlier_share) {
       return;
     }
     result = {pose.camera_from_world, share, true};
   };
-  if (static_cast<int>(observations.size()) < motion.min_points) return result;
   consider(OptimizePose(camera, predicted, observations, PoseOptimizerOptions{}));
-  if (result.inlier_share < motion.doubtful_share) {
+  if (result.inlier_share < options.doubtful_share) {
     PnpOptions pnp;
-    pnp.iterations = motion.ransac_iterations;
-    pnp.min_inliers = motion.min_points;
+    pnp.iterations = options.ransac_iterations;
+    pnp.min_inliers = options.min_points;
     if (const auto pose = EstimatePoseRansac(camera, observations, pnp, engine)) consider(*pose);
   }
   return result;
@@ -90,14 +87,19 @@ CameraMotion EstimateCameraMotion(const PinholeCamera& lattice_camera, const Lat
                                   const RigidTransform& predicted, const MotionOptions& options,
                                   RandomEngine& engine) {
   const CameraMotionOptions& motion = options.camera_motion;
-  CameraMotion sharp =
-      EstimateWithSigma(lattice_camera, pair, predicted, options, motion.pixel_sigma, engine);
+  std::vector<PoseObservation> observations = Observe(lattice_camera, pair, options);
+  CameraMotion none{predicted};
+  if (static_cast<int>(observations.size()) < motion.min_points) return none;
+  const CameraMotion sharp = EstimateFrom(observations, lattice_camera, predicted, motion, engine);
   if (sharp.inlier_share >= motion.blurred_share) return sharp;
-  const CameraMotion blurred = EstimateWithSigma(lattice_camera, pair, predicted, options,
-                                                 motion.blurred_pixel_sigma, engine);
+  for (PoseObservation& observation : observations) {
+    observation.seen.pixel_sigma = motion.blurred_pixel_sigma / options.lattice.cell_px;
+  }
+  const CameraMotion blurred =
+      EstimateFrom(observations, lattice_camera, predicted, motion, engine);
   if (blurred.inlier_share >= motion.blurred_share) return blurred;
-  const std::size_t points = Observe(lattice_camera, pair, options, motion.pixel_sigma).size();
-  return {predicted, 0, false, static_cast<int>(points) >= motion.min_points};
+  none.is_contradicted = true;
+  return none;
 }
 
 }  // namespace ofm
