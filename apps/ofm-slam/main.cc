@@ -41,6 +41,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddEvaluateCommand(app);
   ofm::AddEvaluateMapCommand(app);
   ofm::AddMapCommand(app);
+  ofm::AddObjectsCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddModelsCommand(app);
   ofm::AddVocabularyCommand(app);

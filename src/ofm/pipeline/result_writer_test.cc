@@ -24,7 +24,8 @@ using testing::HasSubstr;
 
 constexpr std::array kFiles = {
     "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",     "map.ot",
-    "map.bt",         "map_labels.csv",      "config.yaml",   "camera.yaml", "summary.json"};
+    "map.bt",         "map_labels.csv",      "config.yaml",   "camera.yaml", "summary.json",
+    "objects.db",     "objects.json"};
 
 /// What a real run leaves.
 RunOutcome RunOnce(const Recording& recording) {

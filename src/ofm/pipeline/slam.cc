@@ -29,6 +29,8 @@ Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
       tracker_(model_, options.tracking, options.seed),
       mapper_(model_, options.mapping, *RequireMap(std::move(map), options)),
       loop_closer_(model_, options.loop, DefaultVocabulary(), options.seed),
-      semantic_mapper_(camera, options.dense) {}
+      semantic_mapper_(camera, options.dense),
+      object_mapper_(camera, options.objects,
+                     ClassPolicies(options.dynamics, front_end_.class_names())) {}
 
 }  // namespace ofm
