@@ -47,7 +47,8 @@ ObjectObservation ObjectObserver::ObserveInstance(const Instance& instance,
   cv::Mat mask = instance.mask;
   if (options_.erosion_px > 0) {
     const int side = 2 * options_.erosion_px + 1;
-    cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+    mask = cv::Mat();  // the instance's is shared
+    cv::erode(instance.mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
   }
   mask = RefineMask(mask, frame.depth_m, refinement).mask & smooth;
 

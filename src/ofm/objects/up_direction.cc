@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMaxTilt_rad = 50 * M_PI / 180;
 constexpr double kSameNormal_rad = 5 * M_PI / 180;
-constexpr double kMaxStep_share = 0.05;  // of the depth, between neighbouring cells of a surface
+constexpr double kMaxBend_share = 0.03;  // of the inverse depth, along three cells of a plane
 constexpr std::size_t kNormals = 4000;   // looked at, at most
 constexpr std::size_t kCandidates = 200;
 constexpr std::size_t kMinNormals = 50;  // that must agree
@@ -22,13 +22,20 @@ void ForEachNormal(const PinholeCamera& camera, const DepthSketch& depth, Use&& 
     const Eigen::Vector2d ideal(column * kStep + kStep / 2, row * kStep + kStep / 2);
     return camera.UnprojectIdeal(ideal, depth.At(column, row));
   };
+  // Along a line of the image, a plane's inverse depth is linear.
+  const auto is_straight = [](double first_m, double middle_m, double last_m) {
+    return first_m > 0 && middle_m > 0 && last_m > 0 &&
+           std::abs(1 / first_m - 2 / middle_m + 1 / last_m) < kMaxBend_share / middle_m;
+  };
   for (int row = 0; row + 2 < depth.rows; row += 2) {
     for (int column = 0; column + 2 < depth.columns; column += 2) {
+      const double here_m = depth.At(column, row);
+      if (!is_straight(here_m, depth.At(column + 1, row), depth.At(column + 2, row)) ||
+          !is_straight(here_m, depth.At(column, row + 1), depth.At(column, row + 2))) {
+        continue;
+      }
       const Eigen::Vector3d here = point(column, row), right = point(column + 2, row),
                             below = point(column, row + 2);
-      if (here.z() <= 0 || right.z() <= 0 || below.z() <= 0) continue;
-      const double step = kMaxStep_share * here.z();
-      if (std::abs(right.z() - here.z()) > step || std::abs(below.z() - here.z()) > step) continue;
       use((below - here).cross(right - here).normalized());
     }
   }
