@@ -17,9 +17,12 @@ namespace ofm {
 namespace {
 
 constexpr const char* kFooter =
-    "RESULTS is the output folder of ofm-slam run with a --segmenter, or its objects.db, an SQLite\n"
-    "database (docs/objects.md). Places are in the world of trajectory.txt [m]; sizes are length x\n"
-    "width x height. \"views\" are the key frames that detected the object, of those that looked at\n"
+    "RESULTS is the output folder of ofm-slam run with a --segmenter, or its objects.db, an "
+    "SQLite\n"
+    "database (docs/objects.md). Places are in the world of trajectory.txt [m]; sizes are length "
+    "x\n"
+    "width x height. \"views\" are the key frames that detected the object, of those that looked "
+    "at\n"
     "its place unhidden; the confidence is the mean score over these.\n"
     "Examples:\n"
     "  ofm-slam objects out\n"
@@ -81,11 +84,12 @@ void PrintObjects(const ObjectAnswer& answer, const std::vector<std::string>& na
   for (std::size_t i = 0; i < answer.objects.size(); ++i) {
     const SceneObject& object = answer.objects[i];
     const Eigen::Vector3d &place = object.centroid_in_world, &size = object.box.size_m;
-    fmt::print("{:>4}  {:<14} {:>5.2f}  {:>8}  {:>5.2f}  {:>7.2f} {:>7.2f} {:>7.2f}  "
-               "{:>4.2f} x {:>4.2f} x {:>4.2f}  {:>6}",
-               object.id.value, names[object.class_id().value], object.classes.front().probability,
-               fmt::format("{}/{}", object.views, object.views_expected), object.confidence,
-               place.x(), place.y(), place.z(), size.x(), size.y(), size.z(), object.point_count);
+    fmt::print(
+        "{:>4}  {:<14} {:>5.2f}  {:>8}  {:>5.2f}  {:>7.2f} {:>7.2f} {:>7.2f}  "
+        "{:>4.2f} x {:>4.2f} x {:>4.2f}  {:>6}",
+        object.id.value, names[object.class_id().value], object.classes.front().probability,
+        fmt::format("{}/{}", object.views, object.views_expected), object.confidence, place.x(),
+        place.y(), place.z(), size.x(), size.y(), size.z(), object.point_count);
     if (with_distance) fmt::print("  {:>8.2f}", answer.distances_m[i]);
     fmt::print("\n");
   }
@@ -100,12 +104,12 @@ void PrintTracks(const ObjectInventory& inventory) {
     const Eigen::Vector3d &from = first.position_in_world, &to = last.position_in_world;
     double speed = 0;
     for (const TrackPoint& point : track.points) speed += point.speed_m_s;
-    fmt::print("{:>4}  {:<14} {:>18}  {:>8.2f}  {:>7.2f} {:>7.2f} {:>7.2f}  "
-               "{:>7.2f} {:>7.2f} {:>7.2f}  {:>11.2f}\n",
-               track.id.value, inventory.class_names[track.class_id.value],
-               FormatSeconds(first.stamp_ns), NanosecondsToSeconds(last.stamp_ns - first.stamp_ns),
-               from.x(), from.y(), from.z(), to.x(), to.y(), to.z(),
-               speed / static_cast<double>(track.points.size()));
+    fmt::print(
+        "{:>4}  {:<14} {:>18}  {:>8.2f}  {:>7.2f} {:>7.2f} {:>7.2f}  "
+        "{:>7.2f} {:>7.2f} {:>7.2f}  {:>11.2f}\n",
+        track.id.value, inventory.class_names[track.class_id.value], FormatSeconds(first.stamp_ns),
+        NanosecondsToSeconds(last.stamp_ns - first.stamp_ns), from.x(), from.y(), from.z(), to.x(),
+        to.y(), to.z(), speed / static_cast<double>(track.points.size()));
   }
 }
 

@@ -57,7 +57,8 @@ TEST_F(ObjectsCommand, FiltersAndSorts) {
   EXPECT_THAT(Ids("--class chair --near 3,0,2"), testing::ElementsAre(2, 0));
   EXPECT_THAT(Ids("--class chair book --near=2.1,0,2 --radius 1.05"), testing::ElementsAre(1, 2));
   EXPECT_THAT(Ids("--near=-1,0,0 --sort views --min-views 5"), testing::ElementsAre(2, 1));
-  EXPECT_THAT(List("--near 1,0.25,1.875").out, AllOf(HasSubstr("away [m]"), HasSubstr("    0.00\n")));
+  EXPECT_THAT(List("--near 1,0.25,1.875").out,
+              AllOf(HasSubstr("away [m]"), HasSubstr("    0.00\n")));
 }
 
 TEST_F(ObjectsCommand, PrintsJsonAndTracks) {
@@ -88,7 +89,8 @@ TEST(ObjectsOfARun, AreWrittenWithASegmenterAndTheSameTwice) {
   EXPECT_FALSE(std::filesystem::exists(recording.output() / "objects.db"));
   std::string database, text;
   for (int i = 0; i < 2; ++i) {
-    const ProgramResult result = recording.Run("--segmenter masks --set perception.mask_class=chair");
+    const ProgramResult result =
+        recording.Run("--segmenter masks --set perception.mask_class=chair");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("objects     "));
     const std::string database_now = ReadFile(recording.output() / "objects.db");

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
 #include <span>
 #include <vector>
-
-#include <opencv2/core/mat.hpp>
 
 #include "ofm/camera/pinhole_camera.h"
 #include "ofm/geometry/rigid_transform.h"

@@ -15,8 +15,7 @@ std::vector<PlacedObservation> PlaceObservations(KeyframeId id, const KeyframeOb
                                                  const RigidTransform& world_from_camera) {
   std::vector<PlacedObservation> placed;
   for (const ObjectObservation& seen : keyframe.observations) {
-    PlacedObservation observation{id,         keyframe.stamp_ns, seen.class_id,
-                                  seen.score, seen.color,        {}};
+    PlacedObservation observation{id, keyframe.stamp_ns, seen.class_id, seen.score, seen.color, {}};
     for (const Eigen::Vector3f& point : seen.points_in_camera) {
       observation.points_in_world.push_back(
           (world_from_camera * point.cast<double>().eval()).cast<float>());
@@ -61,9 +60,8 @@ std::vector<ClassProbability> Probabilities(const ObjectHypothesis& hypothesis) 
   std::vector<ClassProbability> classes;
   const double all = hypothesis.Weight();
   for (const auto& [id, weight] : hypothesis.class_weights()) classes.push_back({id, weight / all});
-  std::stable_sort(classes.begin(), classes.end(), [](const auto& a, const auto& b) {
-    return a.probability > b.probability;
-  });
+  std::stable_sort(classes.begin(), classes.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
   return classes;
 }
 

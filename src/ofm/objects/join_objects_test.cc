@@ -25,7 +25,8 @@ Box Thing(double left, std::uint8_t class_id) {
 
 TEST(JoinObjects, TellsWhatAnObjectIsAndWhereItStands) {
   const auto poses = Walk(8, -.5, .15);
-  const std::vector<SceneObject> objects = ObjectsOf(LookFrom(poses, {Wall(), Thing(0, kChair)}), poses);
+  const std::vector<SceneObject> objects =
+      ObjectsOf(LookFrom(poses, {Wall(), Thing(0, kChair)}), poses);
   ASSERT_EQ(objects.size(), 1U);
   const SceneObject& chair = objects[0];
   EXPECT_EQ(chair.id, ObjectId(0));

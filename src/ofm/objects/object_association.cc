@@ -48,13 +48,14 @@ double SeenApartShare(const ObjectHypothesis& a, const ObjectHypothesis& b) {
   int apart = 0;
   for (const auto& [keyframe, score] : a.views()) {
     if (!b.views().contains(keyframe)) continue;
-    const bool two = std::any_of(
-        a.class_weights().begin(), a.class_weights().end(), [&, id = keyframe](const auto& weight) {
-          return a.SawIn(id, weight.first) && b.SawIn(id, weight.first);
-        });
+    const bool two = std::any_of(a.class_weights().begin(), a.class_weights().end(),
+                                 [&, id = keyframe](const auto& weight) {
+                                   return a.SawIn(id, weight.first) && b.SawIn(id, weight.first);
+                                 });
     if (two) ++apart;
   }
-  return static_cast<double>(apart) / static_cast<double>(std::min(a.views().size(), b.views().size()));
+  return static_cast<double>(apart) /
+         static_cast<double>(std::min(a.views().size(), b.views().size()));
 }
 
 /// The distance, negative, of two that are at one place; empty where they are not.
@@ -97,8 +98,8 @@ void MergePairs(std::vector<ObjectHypothesis>& hypotheses, Measure&& measure) {
 
 bool IsPartOf(const ObjectHypothesis& part, const ObjectHypothesis& whole,
               const ObjectJoinOptions& options) {
-  return part.Weight() <= options.part_max_weight * whole.Weight() &&
-         part.Size() <= whole.Size() && part.Size() >= options.part_min_size * whole.Size() &&
+  return part.Weight() <= options.part_max_weight * whole.Weight() && part.Size() <= whole.Size() &&
+         part.Size() >= options.part_min_size * whole.Size() &&
          part.ShareIn(whole) >= options.part_overlap;
 }
 
@@ -142,8 +143,7 @@ void MergeHypotheses(const ObjectJoinOptions& options, std::vector<ObjectHypothe
 }
 
 void MergeNear(const ObjectJoinOptions& options, std::vector<ObjectHypothesis>& hypotheses) {
-  MergePairs(hypotheses,
-             [&](const auto& a, const auto& b) { return Nearness(a, b, options); });
+  MergePairs(hypotheses, [&](const auto& a, const auto& b) { return Nearness(a, b, options); });
 }
 
 void DropParts(const ObjectJoinOptions& options, std::vector<ObjectHypothesis>& hypotheses) {

@@ -17,7 +17,8 @@ void MergeHypotheses(const ObjectJoinOptions& options, std::vector<ObjectHypothe
 
 /// Merges those at one place that share few voxels, as where the depth of a dark screen is bad:
 /// closer than some spreads of the larger one, if no key frame told them apart; those of different
-/// classes closer than some of the smaller one, if they are of like size, as solid things cannot be.
+/// classes closer than some of the smaller one, if they are of like size, as solid things cannot
+/// be.
 void MergeNear(const ObjectJoinOptions& options, std::vector<ObjectHypothesis>& hypotheses);
 
 /// Drops those that are weak and lie within another of like size.

@@ -54,8 +54,8 @@ TEST(AssociateKeyframe, TwoInstancesOfOneKeyframeAreTwoUnlessTheyOverlap) {
 }
 
 TEST(AssociateKeyframe, GoesToTheOneWithMostOverlap) {
-  const Hypotheses found = Associate({{Patch(0, kBook, 0, .2), Patch(0, kBook, .2, .4)},
-                                      {Patch(1, kBook, .16, .38)}});
+  const Hypotheses found =
+      Associate({{Patch(0, kBook, 0, .2), Patch(0, kBook, .2, .4)}, {Patch(1, kBook, .16, .38)}});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[1].views().size(), 2U);
 }

@@ -91,14 +91,13 @@ void WriteObjectRows(SqliteDatabase& database, const std::vector<SceneObject>& o
                std::int64_t{object.point_count}, std::int64_t{object.color.r},
                std::int64_t{object.color.g}, std::int64_t{object.color.b});
     for (const ClassProbability& likely : object.classes) {
-      probability.Run(Integer(object.id.value), Integer(likely.class_id.value),
-                      likely.probability);
+      probability.Run(Integer(object.id.value), Integer(likely.class_id.value), likely.probability);
     }
   }
 }
 
-std::vector<ClassProbability> ReadProbabilities(const SqliteDatabase& database,
-                                                std::int64_t object, std::size_t classes) {
+std::vector<ClassProbability> ReadProbabilities(const SqliteDatabase& database, std::int64_t object,
+                                                std::size_t classes) {
   SqliteStatement row = database.Prepare(
       "SELECT class_id, probability FROM class_probabilities WHERE object_id = ? "
       "ORDER BY probability DESC, class_id");
@@ -150,7 +149,9 @@ void ReadTrackRows(const SqliteDatabase& database, ObjectInventory& inventory) {
   SqliteStatement row = database.Prepare("SELECT id, class_id, score FROM tracks ORDER BY id");
   while (row.Step()) {
     ObjectTrack track{InstanceId(static_cast<std::uint32_t>(row.Integer(0))),
-                      ReadClass(row, 1, inventory.class_names.size()), row.Real(2), {}};
+                      ReadClass(row, 1, inventory.class_names.size()),
+                      row.Real(2),
+                      {}};
     SqliteStatement point = database.Prepare(
         "SELECT stamp_ns, x, y, z, speed_m_s FROM track_points WHERE track_id = ? "
         "ORDER BY stamp_ns");

@@ -74,7 +74,8 @@ TEST_F(ObjectDatabase, HasTheSameBytesTwice) {
 TEST_F(ObjectDatabase, CanBeAskedInSql) {
   SaveObjects(path_, test::MadeInventory());
   const SqliteDatabase database(ReadFile(path_));
-  SqliteStatement row = database.Prepare("SELECT count(*), max(x) FROM named_objects WHERE class = 'chair'");
+  SqliteStatement row =
+      database.Prepare("SELECT count(*), max(x) FROM named_objects WHERE class = 'chair'");
   ASSERT_TRUE(row.Step());
   EXPECT_EQ(row.Integer(0), 2);
   EXPECT_EQ(row.Real(1), 3);

@@ -39,7 +39,7 @@ int ObjectHypothesis::MinCount() const {
 
 bool ObjectHypothesis::FillsNear(const VoxelIndex& voxel) const {
   static const std::array<VoxelIndex, 7> kSteps{
-      VoxelIndex(0, 0, 0), VoxelIndex(1, 0, 0),  VoxelIndex(-1, 0, 0), VoxelIndex(0, 1, 0),
+      VoxelIndex(0, 0, 0),  VoxelIndex(1, 0, 0), VoxelIndex(-1, 0, 0), VoxelIndex(0, 1, 0),
       VoxelIndex(0, -1, 0), VoxelIndex(0, 0, 1), VoxelIndex(0, 0, -1)};
   return std::any_of(kSteps.begin(), kSteps.end(), [&](const VoxelIndex& step) {
     const std::optional<std::uint32_t> number = voxels_.Find(voxel + step);
@@ -105,8 +105,9 @@ std::vector<Eigen::Vector3f> ObjectHypothesis::Points() const {
 }
 
 ClassId ObjectHypothesis::BestClass() const {
-  const auto best = std::max_element(class_weights_.begin(), class_weights_.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto best =
+      std::max_element(class_weights_.begin(), class_weights_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
   return best == class_weights_.end() ? ClassId() : best->first;
 }
 

@@ -12,7 +12,9 @@ using Json = nlohmann::ordered_json;
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-Json VectorJson(const Eigen::Vector3d& v) { return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())}; }
+Json VectorJson(const Eigen::Vector3d& v) {
+  return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())};
+}
 
 Json BoxJson(const OrientedBox& box) {
   const Eigen::Quaterniond& q = box.world_from_box;

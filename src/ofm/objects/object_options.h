@@ -42,7 +42,7 @@ struct ObjectJoinOptions {
   double part_min_size = 0.2;         ///< of the whole's voxels; what is smaller lies on it
   double part_max_weight = 0.4;       ///< of the whole's summed scores
   int min_views = 2;                  ///< key frames that must have seen an object
-  double min_confidence = 0.14;        ///< summed scores / key frames that should have seen it
+  double min_confidence = 0.14;       ///< summed scores / key frames that should have seen it
   double min_visible_share = 0.6;     ///< of an object's voxels, in a key frame that should see it
   double depth_tolerance_m = 0.06;    ///< between an object's voxel and what is seen there
   int border_px = 12;                 ///< nearer to the image's border nothing need be seen
@@ -90,8 +90,7 @@ struct ObjectTrackOptions {
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("min_duration_s", self.min_duration_s, "shorter tracks are left out [s]",
-          Range{0, 3600});
+    visit("min_duration_s", self.min_duration_s, "shorter tracks are left out [s]", Range{0, 3600});
     visit("speed_window_s", self.speed_window_s, "over which speed is measured [s]",
           Range{0.01, 60});
   }

@@ -71,8 +71,8 @@ ObjectAnswer SelectObjects(const ObjectInventory& inventory, const ObjectQuery& 
     }
     found.push_back({object, distance_m});
   }
-  std::ranges::stable_sort(
-      found, {}, [&](const Found& candidate) { return SortKey(candidate, query.order); });
+  std::ranges::stable_sort(found, {},
+                           [&](const Found& candidate) { return SortKey(candidate, query.order); });
   ObjectAnswer answer;
   for (Found& one : found) {
     answer.objects.push_back(std::move(one.object));

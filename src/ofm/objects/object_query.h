@@ -29,11 +29,11 @@ inline EnumNameList<ObjectOrder> EnumNames(ObjectOrder) {
 }
 
 struct ObjectQuery {
-  std::vector<std::string> classes;             ///< one of these; none = any
-  std::optional<Eigen::Vector3d> near_in_world; ///< [m]
-  std::optional<double> radius_m;               ///< around it
+  std::vector<std::string> classes;              ///< one of these; none = any
+  std::optional<Eigen::Vector3d> near_in_world;  ///< [m]
+  std::optional<double> radius_m;                ///< around it
   int min_views = 0;
-  ObjectOrder order = ObjectOrder::kId;         ///< distance: nearest first; others of number: most
+  ObjectOrder order = ObjectOrder::kId;  ///< distance: nearest first; others of number: most
 };
 
 /// What a query asks for, and by how much each object is away from its place.

@@ -55,9 +55,11 @@ TEST(SelectObjects, SortsAsItIsTold) {
   query.order = ObjectOrder::kDistance;
   EXPECT_THAT(Ids(query), ElementsAre(2, 1, 0));
   EXPECT_NEAR(SelectObjects(test::MadeInventory(), query).distances_m[0], .1, 1e-9);
-  for (const auto& [order, first] :
-       {std::pair{ObjectOrder::kId, 0U}, {ObjectOrder::kClass, 0U}, {ObjectOrder::kViews, 2U},
-        {ObjectOrder::kConfidence, 0U}, {ObjectOrder::kSize, 2U}}) {
+  for (const auto& [order, first] : {std::pair{ObjectOrder::kId, 0U},
+                                     {ObjectOrder::kClass, 0U},
+                                     {ObjectOrder::kViews, 2U},
+                                     {ObjectOrder::kConfidence, 0U},
+                                     {ObjectOrder::kSize, 2U}}) {
     query.order = order;
     EXPECT_EQ(Ids(query).front(), first) << static_cast<int>(order);
   }

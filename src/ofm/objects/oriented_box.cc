@@ -67,8 +67,8 @@ OrientedBox FitOrientedBox(std::span<const Eigen::Vector3f> points_in_world,
   Eigen::Matrix3d axes;
   axes << base.x, base.y, up;
   OrientedBox box;
-  box.center_in_world = base.x * base.along_x.Middle() + base.y * base.along_y.Middle() +
-                        up * along_up.Middle();
+  box.center_in_world =
+      base.x * base.along_x.Middle() + base.y * base.along_y.Middle() + up * along_up.Middle();
   box.world_from_box = Eigen::Quaterniond(axes).normalized();
   box.size_m = {base.along_x.Size(), base.along_y.Size(), along_up.Size()};
   return box;

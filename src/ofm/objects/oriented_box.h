@@ -9,7 +9,7 @@ namespace ofm {
 
 /// A box around an object: its x axis is the longer horizontal side, z is up.
 struct OrientedBox {
-  Eigen::Vector3d center_in_world = {0, 0, 0};                                ///< [m]
+  Eigen::Vector3d center_in_world = {0, 0, 0};  ///< [m]
   Eigen::Quaterniond world_from_box = Eigen::Quaterniond::Identity();
   Eigen::Vector3d size_m = {0, 0, 0};  ///< length >= width, height along up
 };

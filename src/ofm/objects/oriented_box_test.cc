@@ -17,8 +17,9 @@ struct Grid {
     for (int i = 0; i <= 30; ++i) {
       for (int j = 0; j <= 15; ++j) {
         for (int k = 0; k <= 10; ++k) {
-          points.push_back((center + (.02 * i - .3) * x + (.02 * j - .15) * y +
-                            (.02 * k - .1) * kUp).cast<float>());
+          points.push_back(
+              (center + (.02 * i - .3) * x + (.02 * j - .15) * y + (.02 * k - .1) * kUp)
+                  .cast<float>());
         }
       }
     }

@@ -23,12 +23,12 @@ struct ClassProbability {
 
 /// Something that stands still, joined from what key frames saw of it.
 struct SceneObject {
-  ObjectId id;                                      ///< by increasing first sight
-  std::vector<ClassProbability> classes;            ///< the most probable first; they add up to 1
-  OrientedBox box;                                  ///< in the world
-  Eigen::Vector3d centroid_in_world = {0, 0, 0};    ///< of the points seen [m]
-  std::int64_t first_seen_ns = 0, last_seen_ns = 0; ///< key frames' times
-  int views = 0;           ///< key frames in which it was detected
+  ObjectId id;                                       ///< by increasing first sight
+  std::vector<ClassProbability> classes;             ///< the most probable first; they add up to 1
+  OrientedBox box;                                   ///< in the world
+  Eigen::Vector3d centroid_in_world = {0, 0, 0};     ///< of the points seen [m]
+  std::int64_t first_seen_ns = 0, last_seen_ns = 0;  ///< key frames' times
+  int views = 0;                                     ///< key frames in which it was detected
   int views_expected = 0;  ///< key frames that looked at it unhidden; at least `views`
   double confidence = 0;   ///< mean score over these, 0 where it was missed
   int point_count = 0;     ///< of its cloud, one per voxel of point_spacing_m
@@ -46,10 +46,10 @@ struct TrackPoint {
 
 /// What may move, as it was followed over the frames.
 struct ObjectTrack {
-  InstanceId id;      ///< of the tracker of instances
+  InstanceId id;  ///< of the tracker of instances
   ClassId class_id;
-  double score = 0;                 ///< mean
-  std::vector<TrackPoint> points;   ///< by increasing time, one for each frame with a place
+  double score = 0;                ///< mean
+  std::vector<TrackPoint> points;  ///< by increasing time, one for each frame with a place
 };
 
 /// All that is known of a room's objects. Class ids are indices into `class_names`.

@@ -27,8 +27,10 @@ inline ObjectInventory MadeInventory() {
   inventory.class_names = {"person", "chair", "it's a \"cup\"", "book"};
   inventory.up_in_world = {0, -.8, -.6};
   inventory.objects = {MadeObject(0, 1, 1), MadeObject(1, 3, 2), MadeObject(2, 1, 3)};
-  inventory.tracks = {{InstanceId(7), ClassId(0), .5, {{5'000'000'000, {1, 2, 3}, .5},
-                                                       {6'000'000'000, {1.5, 2, 3}, .75}}}};
+  inventory.tracks = {{InstanceId(7),
+                       ClassId(0),
+                       .5,
+                       {{5'000'000'000, {1, 2, 3}, .5}, {6'000'000'000, {1.5, 2, 3}, .75}}}};
   return inventory;
 }
 

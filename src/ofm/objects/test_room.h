@@ -43,8 +43,8 @@ inline InstanceFrame Look(const PinholeCamera& camera, const std::vector<Box>& b
     const cv::Mat mask = seen.class_ids == static_cast<int>(i);
     const cv::Rect box = cv::boundingRect(mask);
     if (box.empty()) continue;
-    frame.instances.push_back({InstanceId(static_cast<std::uint32_t>(i)),
-                               ClassId(boxes[i].class_id), 0.9F, box, mask});
+    frame.instances.push_back(
+        {InstanceId(static_cast<std::uint32_t>(i)), ClassId(boxes[i].class_id), 0.9F, box, mask});
   }
   return frame;
 }

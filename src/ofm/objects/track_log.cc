@@ -21,7 +21,8 @@ void MeasureSpeeds(std::vector<TrackPoint>& points, double window_s) {
   std::size_t first = 0, last = 0;
   for (TrackPoint& point : points) {
     while (points[first].stamp_ns < point.stamp_ns - half_ns) ++first;
-    while (last + 1 < points.size() && points[last + 1].stamp_ns <= point.stamp_ns + half_ns) ++last;
+    while (last + 1 < points.size() && points[last + 1].stamp_ns <= point.stamp_ns + half_ns)
+      ++last;
     const TrackPoint &from = points[first], &to = points[last];
     const double elapsed_s = NanosecondsToSeconds(to.stamp_ns - from.stamp_ns);
     if (elapsed_s <= 0) continue;

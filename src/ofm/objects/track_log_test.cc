@@ -17,14 +17,12 @@ constexpr std::int64_t kFrame_ns = 100'000'000;
 /// Somebody 0.4 m wide whose middle is at (x, 0, 1.52) in the camera's frame.
 struct View {
   explicit View(double x) {
-    const LabelledFrame frame = test::Render(SmallCamera(), {test::Wall(), test::Person(x)}, {},
-                                             KeyframeId(0));
+    const LabelledFrame frame =
+        test::Render(SmallCamera(), {test::Wall(), test::Person(x)}, {}, KeyframeId(0));
     depth_m = frame.depth_m;
     mask = frame.dynamic_mask;
   }
-  FollowedInstance As(std::uint32_t id) const {
-    return {InstanceId(id), ClassId(0), .7F, mask};
-  }
+  FollowedInstance As(std::uint32_t id) const { return {InstanceId(id), ClassId(0), .7F, mask}; }
   cv::Mat depth_m, mask;
 };
 

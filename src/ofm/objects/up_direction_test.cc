@@ -27,8 +27,8 @@ TEST(EstimateUp, IsTheNormalOfTheFloorHoweverTheCameraIsTilted) {
 }
 
 TEST(EstimateUp, WithoutSurfacesIsTheCamerasMeanUp) {
-  const RigidTransform pose(
-      Eigen::Quaterniond(Eigen::AngleAxisd(.5, Eigen::Vector3d::UnitZ())), {0, 0, 0});
+  const RigidTransform pose(Eigen::Quaterniond(Eigen::AngleAxisd(.5, Eigen::Vector3d::UnitZ())),
+                            {0, 0, 0});
   const Eigen::Vector3d up = EstimateUp(test::SmallCamera(), {}, {{KeyframeId(0), pose}});
   EXPECT_LT((up + pose.rotation() * Eigen::Vector3d::UnitY()).norm(), 1e-9);
   EXPECT_EQ(EstimateUp(test::SmallCamera(), {}, {}), -Eigen::Vector3d::UnitY());

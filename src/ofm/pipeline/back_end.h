@@ -14,7 +14,7 @@ namespace ofm {
 struct KeyframeJob {
   KeyframeCandidate candidate;
   std::vector<Sighting> sightings;
-  LabelledFrame labelled;  ///< its id is set by the back end; no images where no map is wanted
+  LabelledFrame labelled;   ///< its id is set by the back end; no images where no map is wanted
   InstanceFrame instances;  ///< the same, where no objects are wanted
 };
 
@@ -43,8 +43,9 @@ class BackEnd {
   virtual std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
   /// Everything that may take its time, loops included; gives the refined snapshot.
   virtual std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
-  /// Final adjustment, the semantic map and the objects (without tracks), from the poses that then are known. `outcome` has a map
-  /// even where this throws. A map whose last change was cut short by an error is not adjusted.
+  /// Final adjustment, the semantic map and the objects (without tracks), from the poses that then
+  /// are known. `outcome` has a map even where this throws. A map whose last change was cut short
+  /// by an error is not adjusted.
   virtual void Finish(RunOutcome& outcome);
 
   /// Keyframe made of a frame, for the trajectory; by frame id.

@@ -13,7 +13,7 @@ namespace ofm {
 /// Tracks frames and gathers what a run tells of them. Serves one thread.
 class TrackingLoop {
  public:
-  TrackingLoop(Slam& slam, const RunContext& context) 
+  TrackingLoop(Slam& slam, const RunContext& context)
       : slam_(slam),
         context_(context),
         object_tracks_(slam.camera(), slam.options().objects.tracks) {}
