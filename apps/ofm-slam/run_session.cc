@@ -14,6 +14,7 @@
 #include "ofm/io/prefetching_source.h"
 #include "ofm/io/trajectory_file.h"
 #include "ofm/map/map_file.h"
+#include "ofm/map/submap.h"
 #include "ofm/perception/make_segmenter.h"
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
@@ -85,6 +86,21 @@ std::string FormatLoops(const RunOutcome& outcome) {
       counts.no_alignment, counts.few_inliers);
 }
 
+/// Empty where there was never more than one.
+std::string FormatSubmaps(const RunOutcome& outcome) {
+  if (outcome.counts.submaps_begun == 0 && outcome.unjoined.empty()) return {};
+  std::string text = fmt::format(
+      "sub-maps    {} begun after a loss, {} joined to another by a place that both show\n",
+      outcome.counts.submaps_begun, outcome.loop_counts.joined);
+  if (outcome.unjoined.empty()) return text;
+  std::size_t frames = 0;
+  for (const UnjoinedSubmap& submap : outcome.unjoined) frames += submap.trajectory.size();
+  return text + fmt::format(
+                    "            results are of sub-map {}; {} more remain, {} of the frames "
+                    "tracked are theirs (trajectory_submap_N.txt)\n",
+                    outcome.submap.value, outcome.unjoined.size(), frames);
+}
+
 MapSettings SettingsOfMap(const PinholeCamera& camera, const OrbOptions& features) {
   return {camera, features.levels, features.scale_factor};
 }
@@ -106,7 +122,8 @@ std::optional<TrajectoryEvaluation> EvaluateInMap(std::optional<Truth> truth,
   if (!truth || map == nullptr) return {};
   try {
     truth->options.truth_from_estimate =
-        ComputeAte(KeyframeTrajectory(*map), truth->trajectory).truth_from_estimate;
+        ComputeAte(KeyframeTrajectory(*map, LargestSubmap(*map)), truth->trajectory)
+            .truth_from_estimate;
   } catch (const Error&) {
     return {};  // the map is of another time
   }
@@ -194,12 +211,11 @@ std::string FormatSummary(const RunReport& report) {
                       counts.keyframes, counts.keyframes_made, counts.landmarks,
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
   text += FormatLoops(outcome);
+  text += FormatSubmaps(outcome);
   const RunDescription& description = report.description;
   if (!description.loaded_map.empty()) {
     text += fmt::format("loaded map  {}{}\n", description.loaded_map,
-                        counts.frames_tracked > 0
-                            ? ""
-                            : ": its place was never recognised, nothing was added to it");
+                        outcome.trajectory.empty() ? ": its place was never recognised" : "");
   }
   if (!description.saved_map.empty()) {
     text +=

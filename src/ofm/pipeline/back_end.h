@@ -52,6 +52,7 @@ class BackEnd {
   void Apply(const LoopClosure& closure, const MapSnapshot& map);
   void AdjustAfterLoop();
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);
+  SemanticMap BuildSemanticMap(const MapSnapshot& map, SubmapId submap);
 
   Slam& slam_;
   LoopAdjustment adjustment_;

@@ -27,6 +27,8 @@ class Slam {
   LoopCloser& loop_closer() { return loop_closer_; }
   SemanticMapper& semantic_mapper() { return semantic_mapper_; }
   const SlamOptions& options() const { return options_; }
+  /// The largest sub-map of the map that was given, whose world stays; invalid where there is none.
+  SubmapId loaded_submap() const { return loaded_submap_; }
   const PinholeCamera& camera() const { return camera_; }
   const MeasurementModel& model() const { return model_; }
 
@@ -37,6 +39,7 @@ class Slam {
   FrontEnd front_end_;
   Tracker tracker_;
   Mapper mapper_;
+  SubmapId loaded_submap_;
   LoopCloser loop_closer_;
   SemanticMapper semantic_mapper_;
 };
