@@ -1,4 +1,5 @@
-// Time to add key frames to the semantic octree, against OctoMap's own insertion of the same clouds.
+// Time to add key frames to the semantic octree, against OctoMap's own insertion of the same
+// clouds.
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
 

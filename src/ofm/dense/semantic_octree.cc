@@ -102,7 +102,8 @@ void SemanticOctree::InsertMisses(const Eigen::Vector3f& origin, const Eigen::Ve
   VoxelIndex last = VoxelIndex::Constant(std::numeric_limits<int>::max());  // in no block
   Block* block = nullptr;
   TraverseRay(origin, end, resolution_m_, [&](const VoxelIndex& voxel) {
-    const int changed_bits = (voxel.x() ^ last.x()) | (voxel.y() ^ last.y()) | (voxel.z() ^ last.z());
+    const int changed_bits =
+        (voxel.x() ^ last.x()) | (voxel.y() ^ last.y()) | (voxel.z() ^ last.z());
     if (changed_bits >> kBlockBits != 0) block = &BlockAt(BlockOf(voxel));
     last = voxel;
     const int cell = CellOf(voxel);
