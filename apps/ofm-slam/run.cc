@@ -17,6 +17,7 @@ constexpr const char* kFooter =
     "Writes to the output folder: trajectory.txt (TUM format, world_from_camera, after\n"
     "optimisation), trajectory_live.txt (as known at the time of each frame), keyframes.txt,\n"
     "map.ply (coloured, labelled cloud), map.ot and map.bt (OctoMap), map_labels.csv,\n"
+    "map.pgm and map.yaml (a grid for nav2, where there is a floor),\n"
     "config.yaml, camera.yaml and summary.json. With groundtruth.txt in the sequence the summary\n"
     "has ATE and RPE. Ctrl-C ends the run early and keeps all results.\n"
     "Examples:\n"
