@@ -139,6 +139,7 @@ void WriteMap(const std::filesystem::path& folder, const SemanticMap& map,
   WriteFileAtomically(folder / "map_labels.csv", [&](std::ostream& stream) {
     WriteVoxelLabels(stream, map.octree, class_names);
   });
+  if (map.navigation_grid) WriteNavigationGrid(folder, *map.navigation_grid);
 }
 
 Json CullingToJson(const CullingCounts& counts) {
@@ -192,7 +193,8 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   }
   if (outcome.semantic_map) {
     json["map"] = {{"cloud_points", outcome.semantic_map->cloud_in_world.size()},
-                   {"resolution_m", options.dense.resolution_m}};
+                   {"resolution_m", options.dense.resolution_m},
+                   {"floor_found", outcome.semantic_map->navigation_grid.has_value()}};
   }
   json["wall_s"] = outcome.wall_s;
   json["process_cpu_s"] = outcome.process_cpu_s;
