@@ -138,7 +138,7 @@ TEST(LoopCloser, APlaceOfAnotherSubmapJoinsTheTwo) {
   const KeyframeId last = run.loops.front().keyframe;
   EXPECT_LT(run.error_after, 0.05);
   EXPECT_EQ(run.made.map.FindSubmap(last), SubmapId(0));
-  EXPECT_EQ(FindProblem(run.made.map), "");
+  EXPECT_EQ(test::FindProblem(run.made.map), "");
 }
 
 TEST(LoopCloser, TheFixedWorldStaysWhateverItsAge) {

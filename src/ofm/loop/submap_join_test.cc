@@ -47,7 +47,7 @@ TEST(SubmapJoin, BringsTheNewerOneToWhereItTrulyIs) {
   }
   EXPECT_GE(report.landmarks_fused, 100);
   EXPECT_EQ(two.made.map.landmarks().size(), landmarks - report.landmarks_fused);
-  EXPECT_EQ(FindProblem(two.made.map), "");
+  EXPECT_EQ(test::FindProblem(two.made.map), "");
 }
 
 TEST(SubmapJoin, MovesRigidlyAndLeavesTheOtherToTheBit) {
@@ -72,7 +72,7 @@ TEST(SubmapJoin, ACameraBackInTheOlderOneMovesTheNewerOneToo) {
     EXPECT_LT(two.made.Error_m(KeyframeId(i)), 0.01) << i;
     EXPECT_EQ(two.made.map.FindSubmap(KeyframeId(i)), kOlder);
   }
-  EXPECT_EQ(FindProblem(two.made.map), "");
+  EXPECT_EQ(test::FindProblem(two.made.map), "");
 }
 
 TEST(SubmapJoin, TheOlderOneMovesWhereTheNewerKeepsItsWorld) {

@@ -119,7 +119,7 @@ TEST_F(MapAdjustment, EachSubmapIsHeldByItsOldestKeyframe) {
     Keyframe keyframe = test::MakeTestKeyframe(frame.features, frame.camera_from_world);
     keyframe.submap = i == 0 ? SubmapId() : SubmapId(static_cast<std::uint32_t>(apart));
     keyframe.landmarks = known.Names(made_.map, frame);
-    const KeyframeId id = AddWithDepth(made_.map, made_.world.model(), keyframe);
+    const KeyframeId id = test::AddWithDepth(made_.map, made_.world.model(), keyframe);
     known.Learn(made_.map.GetKeyframe(id), frame);
     made_.truth.push_back(frame.camera_from_world);
   }

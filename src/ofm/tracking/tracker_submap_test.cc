@@ -78,7 +78,7 @@ TEST_F(TrackerSubmap, BeginsAfterTheSetTimeAndGoesOnThere) {
     ExpectPose(result.camera_from_world, run.Truth(frame), 1e-3, 0.1);
     EXPECT_EQ(SubmapsOf(run.map(), result), std::set{submap});
   }
-  EXPECT_EQ(FindProblem(run.map()), "");
+  EXPECT_EQ(test::FindProblem(run.map()), "");
 }
 
 TEST_F(TrackerSubmap, BeginsNoneWhereThatIsSwitchedOff) {
@@ -131,7 +131,7 @@ TEST_F(TrackerSubmap, FindsTheFirstOneAgainAndMixesNothing) {
     EXPECT_EQ(SubmapsOf(run.map(), result), std::set{SubmapId(0)});
   }
   EXPECT_GE(found, 5);
-  EXPECT_EQ(FindProblem(run.map()), "");
+  EXPECT_EQ(test::FindProblem(run.map()), "");
 }
 
 TEST_F(TrackerSubmap, TheNewestKeyframeOfAnotherOneIsNoPlaceToLookAt) {
@@ -141,13 +141,13 @@ TEST_F(TrackerSubmap, TheNewestKeyframeOfAnotherOneIsNoPlaceToLookAt) {
   const MadeFrame next = run.world().Frame(5);
   Keyframe apart = test::MakeTestKeyframe(next.features, run.Truth(next));
   apart.submap = SubmapId();
-  AddWithDepth(run.map(), run.world().model(), apart);
+  test::AddWithDepth(run.map(), run.world().model(), apart);
   for (std::uint32_t i = 5; i < 8; ++i) {
     const TrackingResult result = run.Step(i);
     EXPECT_EQ(result.status, TrackingStatus::kTracked);
     EXPECT_EQ(SubmapsOf(run.map(), result), std::set{SubmapId(0)});
   }
-  EXPECT_EQ(FindProblem(run.map()), "");
+  EXPECT_EQ(test::FindProblem(run.map()), "");
 }
 
 }  // namespace
