@@ -1,9 +1,6 @@
 // A camera that is carried to another room while nobody looks.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "ofm/eval/ate.h"
 #include "ofm/map/submap.h"
 #include "ofm/map/test_map.h"
 #include "ofm/perception/null_segmenter.h"
@@ -15,24 +12,30 @@ namespace {
 using test::PlaySource;
 using test::Recording;
 
-constexpr int kHere = 6, kThere = 14;
+constexpr int kHere = 6, kCovered = 3, kThere = 14;
 
-/// kHere frames of one room and, from then on, kThere of another.
+/// kHere frames of a room, some with the camera covered, and kThere of the room's mirror image.
 class CarriedCamera : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    here_ = std::make_unique<Recording>(kHere, 1, 0);
-    there_ = std::make_unique<Recording>(kHere + kThere, 2, 0);
-    frames_ = there_->images;
-    std::ranges::copy(here_->images, frames_.begin());
+    recording_ = std::make_unique<Recording>(kHere + kCovered + kThere, 1, 0);
+    frames_ = recording_->images;
+    for (std::size_t i = kHere; i < frames_.size(); ++i) {
+      const bool covered = i < kHere + kCovered;
+      for (cv::Mat* image : {&frames_[i].color, &frames_[i].gray, &frames_[i].depth_m}) {
+        cv::Mat changed = cv::Mat::zeros(image->size(), image->type());
+        if (!covered) cv::flip(*image, changed, 1);
+        *image = changed;
+      }
+    }
   }
   static void TearDownTestSuite() {
-    here_.reset();
-    there_.reset();
+    recording_.reset();
     frames_.clear();
   }
   static SlamOptions Options() {
     SlamOptions options = test::KeyframesOften();
+    options.build_semantic_map = false;
     options.tracking.submap.begin_after_s = 0.1;  // two frames
     return options;
   }
@@ -40,15 +43,22 @@ class CarriedCamera : public testing::Test {
   static RunOutcome Run(const SlamOptions& options, Runner runner,
                         std::shared_ptr<const MapSnapshot> map = nullptr) {
     PlaySource source(frames_);
-    Slam slam(here_->sequence.camera(), options, std::make_unique<NullSegmenter>(), std::move(map));
+    Slam slam(recording_->sequence.camera(), options, std::make_unique<NullSegmenter>(),
+              std::move(map));
     return runner(slam, source, {});
   }
 
-  static std::unique_ptr<Recording> here_, there_;
+  /// Of the first frames alone.
+  static std::shared_ptr<const MapSnapshot> MapOfHere() {
+    PlaySource source({frames_.begin(), frames_.begin() + kHere});
+    return RunSequential(*test::MakeSlam(*recording_, Options()), source, {}).map;
+  }
+
+  static std::unique_ptr<Recording> recording_;
   static std::vector<RgbdFrame> frames_;
 };
 
-std::unique_ptr<Recording> CarriedCamera::here_, CarriedCamera::there_;
+std::unique_ptr<Recording> CarriedCamera::recording_;
 std::vector<RgbdFrame> CarriedCamera::frames_;
 
 TEST_F(CarriedCamera, ResultsAreOfTheLargestSubmapAlone) {
@@ -66,10 +76,8 @@ TEST_F(CarriedCamera, ResultsAreOfTheLargestSubmapAlone) {
     for (const Trajectory* trajectory :
          {&outcome.trajectory, &outcome.live_trajectory, &outcome.keyframe_trajectory}) {
       ASSERT_FALSE(trajectory->empty());
-      EXPECT_GE(trajectory->front().stamp_ns, frames_.at(kHere).stamp_ns);
+      EXPECT_GE(trajectory->front().stamp_ns, frames_.at(kHere + kCovered).stamp_ns);
     }
-    EXPECT_LT(ComputeAte(outcome.trajectory, there_->sequence.GroundTruth()).translation_m.rmse,
-              0.02);
   }
 }
 
@@ -83,22 +91,17 @@ TEST_F(CarriedCamera, StaysLostWithoutSubmaps) {
 }
 
 TEST_F(CarriedCamera, WithALoadedMapResultsAreInItsWorld) {
-  PlaySource source(here_->images);
-  const RunOutcome before = RunSequential(*test::MakeSlam(*here_, Options()), source, {});
-  const RunOutcome outcome = Run(Options(), &RunSequential, before.map);
+  const RunOutcome outcome = Run(Options(), &RunSequential, MapOfHere());
   EXPECT_EQ(outcome.submap, SubmapId(0));
   ASSERT_EQ(outcome.unjoined.size(), 1U);
   EXPECT_GT(outcome.unjoined.front().trajectory.size(), outcome.trajectory.size());
   EXPECT_LE(outcome.trajectory.back().stamp_ns, frames_.at(kHere).stamp_ns);
-  EXPECT_TRUE(outcome.semantic_map);
 }
 
 TEST_F(CarriedCamera, LocaliseOnlyBeginsNone) {
-  PlaySource source(here_->images);
-  const RunOutcome before = RunSequential(*test::MakeSlam(*here_, Options()), source, {});
   SlamOptions options = Options();
   options.localize_only = true;
-  const RunOutcome outcome = Run(options, &RunSequential, before.map);
+  const RunOutcome outcome = Run(options, &RunSequential, MapOfHere());
   EXPECT_EQ(outcome.counts.submaps_begun, 0U);
   EXPECT_EQ(FindSubmaps(*outcome.map).size(), 1U);
 }
