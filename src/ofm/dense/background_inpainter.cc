@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "ofm/base/check.h"
 #include "ofm/camera/depth_noise.h"
@@ -49,34 +49,43 @@ struct WarpedView {
 
 class Warper {
  public:
-  Warper(const PinholeCamera& camera, const UndistortionTable& table, const SceneView& target,
-         const cv::Mat& hidden)
-      : camera_(camera), table_(table), target_(target), hidden_(hidden) {}
+  Warper(const PinholeCamera& camera, const SceneView& target, const cv::Mat& hidden)
+      : camera_(camera), target_(target), hidden_(hidden) {
+    constexpr int kMargin_px = 48;  // more than the lens moves a point
+    const cv::Rect box = cv::boundingRect(hidden);
+    near_hidden_ = {box.x - kMargin_px, box.y - kMargin_px, box.width + 2 * kMargin_px,
+                    box.height + 2 * kMargin_px};
+  }
 
-  WarpedView Warp(const SceneView& source, const cv::Mat& usable) const {
+  WarpedView Warp(const StaticView& source) const {
     WarpedView warped{
         cv::Mat::zeros(hidden_.size(), CV_32FC1), cv::Mat::zeros(hidden_.size(), CV_8UC3), {}};
     const RigidTransform target_from_source =
         target_.world_from_camera.Inverse() * source.world_from_camera;
-    for (int row = 0; row < usable.rows; ++row) {
-      for (int column = 0; column < usable.cols; ++column) {
-        if (usable.at<std::uint8_t>(row, column) == 0) continue;
-        const double depth_m = source.depth_m.at<float>(row, column);
-        const Eigen::Vector3d point =
-            target_from_source *
-            camera_.UnprojectIdeal(table_.At(column, row).cast<double>(), depth_m);
-        Draw(point, source.color.at<cv::Vec3b>(row, column), warped);
-      }
+    const Eigen::Matrix3f rotation = target_from_source.RotationMatrix().cast<float>();
+    const Eigen::Vector3f translation = target_from_source.translation().cast<float>();
+    for (std::size_t i = 0; i < source.points_in_camera.size(); ++i) {
+      const Eigen::Vector3f point = rotation * source.points_in_camera[i] + translation;
+      constexpr float kMinDepth_m = .1F;
+      if (point.z() < kMinDepth_m) continue;
+      if (i % kExposureStep != 0 && !MayBeHidden(point)) continue;
+      Draw(point.cast<double>(), source.colors[i], warped);
     }
     return warped;
   }
 
  private:
+  static constexpr std::size_t kExposureStep = 8;  // of the points tell the brightness
+
+  /// Quick, and true for every point that is drawn on a hidden pixel.
+  bool MayBeHidden(const Eigen::Vector3f& point_in_target) const {
+    const Eigen::Vector2d pixel = camera_.ProjectIdeal(point_in_target.cast<double>());
+    return near_hidden_.contains({static_cast<int>(pixel.x()), static_cast<int>(pixel.y())});
+  }
+
   /// On the four pixels around, so that surfaces stay closed where the target is nearer.
   void Draw(const Eigen::Vector3d& point_in_target, const cv::Vec3b& color,
             WarpedView& warped) const {
-    constexpr double kMinDepth_m = .1;
-    if (point_in_target.z() < kMinDepth_m) return;
     const Eigen::Vector2d pixel = camera_.Project(point_in_target);
     if (!camera_.IsInImage(pixel)) return;
     const auto depth_m = static_cast<float>(point_in_target.z());
@@ -100,9 +109,9 @@ class Warper {
   }
 
   const PinholeCamera& camera_;
-  const UndistortionTable& table_;
   const SceneView& target_;
   const cv::Mat& hidden_;
+  cv::Rect near_hidden_;
 };
 
 cv::Vec3b Brightened(const cv::Vec3b& color, double gain) {
@@ -155,19 +164,13 @@ Candidate ChooseSurface(const std::vector<Candidate>& candidates,
 
 /// Of the sources by time, those nearest to the target's first.
 std::vector<WarpedView> WarpAll(const Warper& warper, std::int64_t stamp_ns,
-                                std::span<const std::shared_ptr<const SceneView>> sources,
-                                const KeyframeCloudOptions& options) {
-  std::vector<std::shared_ptr<const SceneView>> by_time(sources.begin(), sources.end());
+                                std::span<const std::shared_ptr<const StaticView>> sources) {
+  std::vector<std::shared_ptr<const StaticView>> by_time(sources.begin(), sources.end());
   std::stable_sort(by_time.begin(), by_time.end(), [&](const auto& a, const auto& b) {
     return std::llabs(a->stamp_ns - stamp_ns) < std::llabs(b->stamp_ns - stamp_ns);
   });
   std::vector<WarpedView> views;
-  for (const auto& source : by_time) {
-    LabelledFrame source_frame;
-    source_frame.depth_m = source->depth_m;
-    source_frame.dynamic_mask = source->hidden;
-    views.push_back(warper.Warp(*source, FindUsablePixels(source_frame, options)));
-  }
+  for (const auto& source : by_time) views.push_back(warper.Warp(*source));
   return views;
 }
 
@@ -178,8 +181,26 @@ BackgroundInpainter::BackgroundInpainter(const PinholeCamera& camera,
                                          const InpaintingOptions& options)
     : camera_(camera), cloud_(cloud), options_(options), table_(camera) {}
 
+StaticView BackgroundInpainter::MakeStaticView(const SceneView& view) const {
+  StaticView result{view.stamp_ns, view.world_from_camera, {}, {}};
+  LabelledFrame frame;
+  frame.depth_m = view.depth_m;
+  frame.dynamic_mask = view.hidden;
+  const cv::Mat usable = FindUsablePixels(frame, cloud_);
+  for (int row = 0; row < usable.rows; ++row) {
+    for (int column = 0; column < usable.cols; ++column) {
+      if (usable.at<std::uint8_t>(row, column) == 0) continue;
+      const Eigen::Vector3d point = camera_.UnprojectIdeal(table_.At(column, row).cast<double>(),
+                                                           view.depth_m.at<float>(row, column));
+      result.points_in_camera.push_back(point.cast<float>());
+      result.colors.push_back(view.color.at<cv::Vec3b>(row, column));
+    }
+  }
+  return result;
+}
+
 InpaintedFrame BackgroundInpainter::Inpaint(
-    const SceneView& target, std::span<const std::shared_ptr<const SceneView>> sources) const {
+    const SceneView& target, std::span<const std::shared_ptr<const StaticView>> sources) const {
   OFM_CHECK(target.hidden.size() == target.color.size() &&
             target.depth_m.size() == target.color.size());
   InpaintedFrame frame{target.color.clone(), target.depth_m.clone(),
@@ -189,7 +210,7 @@ InpaintedFrame BackgroundInpainter::Inpaint(
   frame.depth_m.setTo(0, frame.hidden);
   if (cv::countNonZero(frame.hidden) == 0) return frame;
   const std::vector<WarpedView> views =
-      WarpAll(Warper(camera_, table_, target, frame.hidden), target.stamp_ns, sources, cloud_);
+      WarpAll(Warper(camera_, target, frame.hidden), target.stamp_ns, sources);
   std::vector<Candidate> candidates;
   for (int row = 0; row < frame.hidden.rows; ++row) {
     for (int column = 0; column < frame.hidden.cols; ++column) {

@@ -30,18 +30,29 @@ struct InpaintedFrame {
   cv::Mat filled;   ///< CV_8UC1, 255 = of these, filled from other views
 };
 
-/// Fills frames of one camera. Not thread-safe.
+/// The static surface that a view shows: what fills others.
+struct StaticView {
+  std::int64_t stamp_ns = 0;
+  RigidTransform world_from_camera;
+  std::vector<Eigen::Vector3f> points_in_camera;  ///< [m]
+  std::vector<cv::Vec3b> colors;                  ///< of each point, BGR
+};
+
+/// Fills frames of one camera. Immutable: threads may share it.
 class BackgroundInpainter {
  public:
   BackgroundInpainter(const PinholeCamera& camera, const KeyframeCloudOptions& cloud,
                       const InpaintingOptions& options);
 
-  /// Takes the hidden pixels of `target` away and fills them with what static, smooth pixels of
-  /// `sources` show there: each is warped by depth and pose, its brightness fitted to the target's.
+  /// The usable pixels of a view (usable_pixels.h), back-projected.
+  StaticView MakeStaticView(const SceneView& view) const;
+
+  /// Takes the hidden pixels of `target` away and fills them with what `sources` show there: each
+  /// is warped into the target's image, its brightness fitted to the target's.
   /// Of the depths that come to a pixel the nearest that enough sources agree on counts, and of
   /// these the colour of the source nearest in time.
   InpaintedFrame Inpaint(const SceneView& target,
-                         std::span<const std::shared_ptr<const SceneView>> sources) const;
+                         std::span<const std::shared_ptr<const StaticView>> sources) const;
 
  private:
   PinholeCamera camera_;

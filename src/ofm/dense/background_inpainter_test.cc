@@ -31,8 +31,13 @@ std::vector<test::Box> RoomWithPerson(double x) {
 class BackgroundInpainterTest : public testing::Test {
  protected:
   InpaintedFrame Inpaint(const SceneView& target,
-                         const std::vector<std::shared_ptr<const SceneView>>& sources) const {
-    return BackgroundInpainter(test::SmallCamera(), {}, {}).Inpaint(target, sources);
+                         const std::vector<std::shared_ptr<SceneView>>& sources) const {
+    const BackgroundInpainter inpainter(test::SmallCamera(), {}, {});
+    std::vector<std::shared_ptr<const StaticView>> views;
+    for (const auto& source : sources) {
+      views.push_back(std::make_shared<StaticView>(inpainter.MakeStaticView(*source)));
+    }
+    return inpainter.Inpaint(target, views);
   }
 
   /// Share of the hidden pixels that were filled with the depth and colour of the empty room.
