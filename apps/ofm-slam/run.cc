@@ -87,6 +87,10 @@ void AddRunCommand(CLI::App& app) {
   command->add_option("--write-masks", settings.write_masks,
                       "Folder for each frame's instances (JSON), which --segmenter masks reads: a\n"
                       "slow network then runs once for many runs");
+  CLI::Option* inpainted = command->add_option(
+      "--write-inpainted", settings.write_inpainted,
+      "Folder for the frames without what moved in them: a TUM folder whose hidden\n"
+      "colour and depth are filled from the keyframes before and after");
   command->add_option("--debug-video", settings.debug_video,
                       "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
   CLI::Option* load = command->add_option("--load-map", settings.load_map,
@@ -98,7 +102,8 @@ void AddRunCommand(CLI::App& app) {
       ->add_flag("--localize-only", arguments->localize_only,
                  "Only follow the camera in the loaded map, which stays as it is")
       ->needs(load)
-      ->excludes(save);
+      ->excludes(save)
+      ->excludes(inpainted);
   command->add_option("--start", settings.range.first, "First frame")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--frames", settings.range.max_count, "Frames at most")

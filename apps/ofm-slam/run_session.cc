@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "debug_video.h"
+#include "inpainting_writer.h"
 #include "mask_writer.h"
 #include "ofm/base/error.h"
 #include "ofm/base/time.h"
@@ -164,6 +165,8 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (!settings.write_masks.empty()) {
     mask_writer.emplace(settings.write_masks, segmenter->class_names());
   }
+  std::optional<HiddenPixelRecorder> hidden;
+  if (!settings.write_inpainted.empty()) hidden.emplace(settings.write_inpainted);
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -173,6 +176,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (video) context.observers.push_back(&*video);
     if (meter) context.observers.push_back(&*meter);
     if (mask_writer) context.observers.push_back(&*mask_writer);
+    if (hidden) context.observers.push_back(&*hidden);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -195,6 +199,10 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
       EvaluateInMap(truth, start_map.get(), report.outcome.trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
   SaveFinalMap(settings, camera, report);
+  if (hidden) {
+    WriteInpaintedFrames(settings.write_inpainted, *sequence, report.outcome,
+                         settings.options.dense);
+  }
   return report;
 }
 

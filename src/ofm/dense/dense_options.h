@@ -81,6 +81,25 @@ struct NavigationOptions {
   }
 };
 
+/// Frames without what moved in them.
+struct InpaintingOptions {
+  int keyframes_before = 8, keyframes_after = 8;  ///< that fill a frame
+  double agreement_sigmas = 4;     ///< depths nearer than this show one surface [depth sigmas]
+  double min_agreeing_share = .3;  ///< of the keyframes that show a pixel; the nearest such wins
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("keyframes_before", self.keyframes_before, "keyframes before a frame that fill it",
+          Range{0, 1000});
+    visit("keyframes_after", self.keyframes_after, "keyframes after a frame that fill it",
+          Range{0, 1000});
+    visit("agreement_sigmas", self.agreement_sigmas,
+          "depths nearer than this show one surface [depth sigmas]", Range{.1, 100});
+    visit("min_agreeing_share", self.min_agreeing_share,
+          "share of the keyframes that see a pixel and must agree on a surface", Range{0, 1});
+  }
+};
+
 struct DenseOptions {
   double resolution_m = .05;       ///< side of an octree voxel
   double range_m = 5;              ///< farther points only free the space before them
@@ -88,6 +107,7 @@ struct DenseOptions {
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
   NavigationOptions navigation;
+  InpaintingOptions inpainting;
 
   /// Side of a cloud voxel [m].
   double CloudResolution() const { return resolution_m / cloud_points_per_voxel; }
@@ -102,6 +122,7 @@ struct DenseOptions {
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
     visit("navigation", self.navigation);
+    visit("inpainting", self.inpainting);
   }
 };
 
