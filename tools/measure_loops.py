@@ -58,8 +58,10 @@ def loop_line(loop, truth):
     error = compose(true, invert(claimed))
     angle = 2 * math.degrees(math.acos(min(1, abs(error[1][3]))))
     start = truth[0][0]
+    effect = (f'joins sub-map {loop["joined_submap"]} to {loop["into_submap"]}' if 'joined_submap' in loop else
+              f'drift {loop["drift_m"]:.3f} m {loop["drift_deg"]:.2f} deg')
     return (f'    {stamp - start:.2f} s shows {place - start:.2f} s: {loop["matches"]} matches, '
-            f'{loop["landmarks_fused"]} fused, drift {loop["drift_m"]:.3f} m {loop["drift_deg"]:.2f} deg; '
+            f'{loop["landmarks_fused"]} fused, {effect}; '
             f'wrong by {math.dist(error[0], (0, 0, 0)):.3f} m, {angle:.2f} deg')
 
 

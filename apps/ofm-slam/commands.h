@@ -8,6 +8,7 @@ namespace ofm {
 void AddRunCommand(CLI::App& app);
 void AddEvaluateCommand(CLI::App& app);
 void AddEvaluateMapCommand(CLI::App& app);
+void AddEvaluateInpaintingCommand(CLI::App& app);
 void AddMapCommand(CLI::App& app);
 void AddObjectsCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);

@@ -16,6 +16,7 @@
 #include "ofm/io/trajectory_file.h"
 #include "ofm/io/tum_index.h"
 #include "ofm/map/map_file.h"
+#include "ofm/map/submap.h"
 #include "ofm/pipeline/trajectory_log.h"
 
 namespace ofm {
@@ -54,7 +55,8 @@ std::size_t CountFrames(const std::string& sequence, const Trajectory& groundtru
 /// A trajectory file, or the keyframes of a map file.
 Trajectory LoadTrajectoryOrMap(const std::string& path) {
   if (std::filesystem::path(path).extension() == ".ofm") {
-    return KeyframeTrajectory(*LoadMap(path).map);
+    const StoredMap stored = LoadMap(path);
+    return KeyframeTrajectory(*stored.map, LargestSubmap(*stored.map));
   }
   return LoadTrajectory(path);
 }

@@ -40,6 +40,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddRunCommand(app);
   ofm::AddEvaluateCommand(app);
   ofm::AddEvaluateMapCommand(app);
+  ofm::AddEvaluateInpaintingCommand(app);
   ofm::AddMapCommand(app);
   ofm::AddObjectsCommand(app);
   ofm::AddDemoCommand(app);

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "ofm/base/time.h"
 #include "ofm/map/map_file.h"
+#include "ofm/map/submap.h"
 
 namespace ofm {
 namespace {
@@ -36,6 +37,11 @@ void PrintInfo(const std::filesystem::path& path) {
              1e-6 * static_cast<double>(std::filesystem::file_size(path)));
   fmt::print("keyframes  {}\n", stored.map->keyframe_count);
   fmt::print("landmarks  {}\n", stored.map->landmark_count);
+  const std::vector<SubmapSize> submaps = FindSubmaps(*stored.map);
+  for (const SubmapSize& submap : submaps) {
+    if (submaps.size() == 1) continue;
+    fmt::print("sub-map    {}: {} keyframes\n", submap.id.value, submap.keyframes);
+  }
   PrintTimes(*stored.map);
   fmt::print("camera     {} x {} px, fx {} fy {} cx {} cy {}, {}\n", camera.width, camera.height,
              camera.fx, camera.fy, camera.cx, camera.cy,

@@ -17,9 +17,13 @@ constexpr const char* kFooter =
     "Writes to the output folder: trajectory.txt (TUM format, world_from_camera, after\n"
     "optimisation), trajectory_live.txt (as known at the time of each frame), keyframes.txt,\n"
     "map.ply (coloured, labelled cloud), map.ot and map.bt (OctoMap), map_labels.csv,\n"
-    "config.yaml, camera.yaml and summary.json; with a segmenter also objects.db and objects.json\n"
-    "(see ofm-slam objects). With groundtruth.txt in the sequence the summary has ATE and RPE. "
-    "Ctrl-C ends the run early and keeps all results.\n"
+    "map.pgm and map.yaml (a grid for nav2, where there is a floor),\n"
+    "objects.db and objects.json (with a segmenter; see ofm-slam objects),\n"
+    "config.yaml, camera.yaml and summary.json. Frames of parts of the map that were begun after "
+    "a\n"
+    "loss and never joined to the rest are in trajectory_submap_N.txt, in their own worlds.\n"
+    "With groundtruth.txt in the sequence the summary has ATE and RPE. Ctrl-C ends the run early\n"
+    "and keeps all results.\n"
     "Examples:\n"
     "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam run desk_walking --segmenter masks --output out\n"
@@ -84,6 +88,10 @@ void AddRunCommand(CLI::App& app) {
   command->add_option("--write-masks", settings.write_masks,
                       "Folder for each frame's instances (JSON), which --segmenter masks reads: a\n"
                       "slow network then runs once for many runs");
+  CLI::Option* inpainted = command->add_option(
+      "--write-inpainted", settings.write_inpainted,
+      "Folder for the frames without what moved in them: a TUM folder whose hidden\n"
+      "colour and depth are filled from the keyframes before and after");
   command->add_option("--debug-video", settings.debug_video,
                       "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
   CLI::Option* load = command->add_option("--load-map", settings.load_map,
@@ -95,7 +103,8 @@ void AddRunCommand(CLI::App& app) {
       ->add_flag("--localize-only", arguments->localize_only,
                  "Only follow the camera in the loaded map, which stays as it is")
       ->needs(load)
-      ->excludes(save);
+      ->excludes(save)
+      ->excludes(inpainted);
   command->add_option("--start", settings.range.first, "First frame")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--frames", settings.range.max_count, "Frames at most")

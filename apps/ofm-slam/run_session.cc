@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "debug_video.h"
+#include "inpainting_writer.h"
 #include "mask_writer.h"
 #include "ofm/base/error.h"
 #include "ofm/base/time.h"
@@ -14,6 +15,7 @@
 #include "ofm/io/prefetching_source.h"
 #include "ofm/io/trajectory_file.h"
 #include "ofm/map/map_file.h"
+#include "ofm/map/submap.h"
 #include "ofm/perception/make_segmenter.h"
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
@@ -85,6 +87,21 @@ std::string FormatLoops(const RunOutcome& outcome) {
       counts.no_alignment, counts.few_inliers);
 }
 
+/// Empty where there was never more than one.
+std::string FormatSubmaps(const RunOutcome& outcome) {
+  if (outcome.counts.submaps_begun == 0 && outcome.unjoined.empty()) return {};
+  std::string text = fmt::format(
+      "sub-maps    {} begun after a loss, {} joined to another by a place that both show\n",
+      outcome.counts.submaps_begun, outcome.loop_counts.joined);
+  if (outcome.unjoined.empty()) return text;
+  std::size_t frames = 0;
+  for (const UnjoinedSubmap& submap : outcome.unjoined) frames += submap.trajectory.size();
+  return text + fmt::format(
+                    "            results are of sub-map {}; {} more remain, {} of the frames "
+                    "tracked are theirs (trajectory_submap_N.txt)\n",
+                    outcome.submap.value, outcome.unjoined.size(), frames);
+}
+
 MapSettings SettingsOfMap(const PinholeCamera& camera, const OrbOptions& features) {
   return {camera, features.levels, features.scale_factor};
 }
@@ -106,7 +123,8 @@ std::optional<TrajectoryEvaluation> EvaluateInMap(std::optional<Truth> truth,
   if (!truth || map == nullptr) return {};
   try {
     truth->options.truth_from_estimate =
-        ComputeAte(KeyframeTrajectory(*map), truth->trajectory).truth_from_estimate;
+        ComputeAte(KeyframeTrajectory(*map, LargestSubmap(*map)), truth->trajectory)
+            .truth_from_estimate;
   } catch (const Error&) {
     return {};  // the map is of another time
   }
@@ -147,6 +165,8 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (!settings.write_masks.empty()) {
     mask_writer.emplace(settings.write_masks, segmenter->class_names());
   }
+  std::optional<HiddenPixelRecorder> hidden;
+  if (!settings.write_inpainted.empty()) hidden.emplace(settings.write_inpainted);
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -156,6 +176,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (video) context.observers.push_back(&*video);
     if (meter) context.observers.push_back(&*meter);
     if (mask_writer) context.observers.push_back(&*mask_writer);
+    if (hidden) context.observers.push_back(&*hidden);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -178,6 +199,10 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
       EvaluateInMap(truth, start_map.get(), report.outcome.trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
   SaveFinalMap(settings, camera, report);
+  if (hidden) {
+    WriteInpaintedFrames(settings.write_inpainted, *sequence, report.outcome,
+                         settings.options.dense);
+  }
   return report;
 }
 
@@ -198,12 +223,11 @@ std::string FormatSummary(const RunReport& report) {
                         outcome.objects->objects.size(), outcome.objects->tracks.size());
   }
   text += FormatLoops(outcome);
+  text += FormatSubmaps(outcome);
   const RunDescription& description = report.description;
   if (!description.loaded_map.empty()) {
     text += fmt::format("loaded map  {}{}\n", description.loaded_map,
-                        counts.frames_tracked > 0
-                            ? ""
-                            : ": its place was never recognised, nothing was added to it");
+                        outcome.trajectory.empty() ? ": its place was never recognised" : "");
   }
   if (!description.saved_map.empty()) {
     text +=

@@ -19,8 +19,9 @@ struct RunSettings {
   std::filesystem::path true_masks;   ///< instance PNGs to measure culling against; may be empty
   std::filesystem::path debug_video;  ///< .avi or folder; may be empty
   std::filesystem::path write_masks;  ///< folder; may be empty
-  std::filesystem::path load_map;     ///< to go on with, or to localise in; may be empty
-  std::filesystem::path save_map;     ///< to be written at the end; may be empty
+  std::filesystem::path write_inpainted;  ///< folder; may be empty
+  std::filesystem::path load_map;         ///< to go on with, or to localise in; may be empty
+  std::filesystem::path save_map;         ///< to be written at the end; may be empty
   FrameRange range;
   bool threaded = false;
   bool realtime = false;           ///< at the recorded pace; frames that come too early wait

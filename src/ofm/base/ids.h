@@ -26,6 +26,8 @@ struct Id {
 using FrameId = Id<struct FrameTag>;
 using KeyframeId = Id<struct KeyframeTag>;
 using LandmarkId = Id<struct LandmarkTag>;
+/// A part of the map with a world of its own; see ofm/map/submap.h.
+using SubmapId = Id<struct SubmapTag>;
 using InstanceId = Id<struct InstanceTag>;
 /// Index into the segmentation network's class list (0 = person in COCO-80).
 using ClassId = Id<struct ClassTag>;

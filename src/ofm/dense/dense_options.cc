@@ -15,6 +15,9 @@ void CheckOptions(const DenseOptions& options) {
       throw Error(fmt::format("dense.{}: {}", field.path, error.what()));
     }
   }
+  if (options.navigation.min_height_m >= options.navigation.max_height_m) {
+    throw Error("dense.navigation.min_height_m must be under dense.navigation.max_height_m");
+  }
 }
 
 }  // namespace ofm

@@ -49,12 +49,65 @@ struct OccupancyOptions {
   }
 };
 
+/// What counts as a floor.
+struct FloorOptions {
+  double max_tilt_deg = 50;        ///< against what the cameras think is up, on average
+  double min_area_m2 = .5;         ///< that must have been seen
+  double max_share_beneath = .02;  ///< of the occupied voxels
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("max_tilt_deg", self.max_tilt_deg,
+          "tilt against what the cameras think is up, on average [deg]", Range{0, 90});
+    visit("min_area_m2", self.min_area_m2, "floor that must have been seen [m^2]", Range{0, 1e4});
+    visit("max_share_beneath", self.max_share_beneath,
+          "share of the occupied voxels that may lie beneath a floor", Range{0, 1});
+  }
+};
+
+/// The 2-D occupancy grid.
+struct NavigationOptions {
+  double min_height_m = .1;   ///< over the floor; lower things are driven over
+  double max_height_m = 1.5;  ///< higher things are driven under
+  FloorOptions floor;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("min_height_m", self.min_height_m, "height over the floor from which things obstruct [m]",
+          Range{0, 10});
+    visit("max_height_m", self.max_height_m,
+          "height over the floor up to which things obstruct [m]", Range{0, 100});
+    visit("floor", self.floor);
+  }
+};
+
+/// Frames without what moved in them.
+struct InpaintingOptions {
+  int keyframes_before = 8, keyframes_after = 8;  ///< that fill a frame
+  double agreement_sigmas = 4;     ///< depths nearer than this show one surface [depth sigmas]
+  double min_agreeing_share = .3;  ///< of the keyframes that show a pixel; the nearest such wins
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("keyframes_before", self.keyframes_before, "keyframes before a frame that fill it",
+          Range{0, 1000});
+    visit("keyframes_after", self.keyframes_after, "keyframes after a frame that fill it",
+          Range{0, 1000});
+    visit("agreement_sigmas", self.agreement_sigmas,
+          "depths nearer than this show one surface [depth sigmas]", Range{.1, 100});
+    visit("min_agreeing_share", self.min_agreeing_share,
+          "share of the keyframes that see a pixel and must agree on a surface", Range{0, 1});
+  }
+};
+
 struct DenseOptions {
   double resolution_m = .05;       ///< side of an octree voxel
   double range_m = 5;              ///< farther points only free the space before them
   int cloud_points_per_voxel = 2;  ///< cloud points along a voxel's side
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
+  NavigationOptions navigation;
+  InpaintingOptions inpainting;
 
   /// Side of a cloud voxel [m].
   double CloudResolution() const { return resolution_m / cloud_points_per_voxel; }
@@ -68,6 +121,8 @@ struct DenseOptions {
           "points of the cloud along an octree voxel's side", Range{1, 8});
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
+    visit("navigation", self.navigation);
+    visit("inpainting", self.inpainting);
   }
 };
 

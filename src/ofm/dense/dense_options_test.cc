@@ -34,6 +34,12 @@ TEST(DenseOptions, ASensorModelThatNeverClearsIsRejected) {
   EXPECT_THROW(CheckOptions(options), Error);
 }
 
+TEST(DenseOptions, ANavigationBandWithoutHeightIsRejected) {
+  DenseOptions options;
+  options.navigation.min_height_m = options.navigation.max_height_m;
+  EXPECT_THROW(CheckOptions(options), Error);
+}
+
 TEST(DenseOptions, NestedFieldsAreSetByTheirPaths) {
   DenseOptions options;
   const auto fields = OptionFields(options);

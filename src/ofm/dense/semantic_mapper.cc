@@ -16,6 +16,17 @@ WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& wor
   return scan;
 }
 
+namespace {
+
+/// What the cameras think is up, on average: against the images' y axis.
+Eigen::Vector3d MeanUp(const std::map<KeyframeId, RigidTransform>& world_from_camera) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const auto& [id, pose] : world_from_camera) up -= pose.rotation() * Eigen::Vector3d::UnitY();
+  return up.normalized();
+}
+
+}  // namespace
+
 SemanticMapper::SemanticMapper(const PinholeCamera& camera, const DenseOptions& options)
     : options_(options), cloud_maker_(camera, options) {}
 
@@ -39,6 +50,8 @@ SemanticMap SemanticMapper::Build(
     for (const LabelledPoint& point : scan.points) filter.Add(point);
   }
   map.cloud_in_world = filter.Points();
+  map.navigation_grid =
+      MakeNavigationGrid(map.octree, MeanUp(world_from_camera), options_.navigation);
   std::erase_if(map.cloud_in_world,
                 [&](const LabelledPoint& point) { return !map.octree.IsOccupied(point.position); });
   return map;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "ofm/base/ids.h"
 #include "ofm/dense/dense_options.h"
 #include "ofm/dense/keyframe_cloud.h"
+#include "ofm/dense/navigation_grid.h"
 #include "ofm/dense/semantic_octree.h"
 #include "ofm/geometry/rigid_transform.h"
 
@@ -15,6 +17,7 @@ namespace ofm {
 struct SemanticMap {
   std::vector<LabelledPoint> cloud_in_world;  ///< one point per cloud voxel
   SemanticOctree octree;
+  std::optional<NavigationGrid> navigation_grid = {};  ///< empty where no floor was found
 };
 
 /// A key frame's cloud where `world_from_camera` puts it.

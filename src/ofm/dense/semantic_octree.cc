@@ -46,13 +46,7 @@ int SemanticOctree::CellOf(const VoxelIndex& voxel) {
          (voxel.z() & kMask);
 }
 
-SemanticOctree::Block& SemanticOctree::BlockAt(const VoxelIndex& block) {
-  const std::uint32_t number = table_.Insert(block);
-  if (number == blocks_.size()) blocks_.emplace_back();
-  return blocks_[number];
-}
-
-bool SemanticOctree::MarkUpdated(Block& block, int cell) const {
+inline bool SemanticOctree::MarkUpdated(Block& block, int cell) const {
   if (block.updated_in != scan_) {
     block.updated.reset();
     block.updated_in = scan_;
@@ -62,12 +56,18 @@ bool SemanticOctree::MarkUpdated(Block& block, int cell) const {
   return true;
 }
 
-void SemanticOctree::Update(Block& block, int cell, float change) const {
+inline void SemanticOctree::Update(Block& block, int cell, float change) const {
   float& log_odds = block.log_odds[cell];
   log_odds = std::clamp((std::isnan(log_odds) ? 0 : log_odds) + change, min_, max_);
   if (log_odds <= min_ && block.surface[cell] != 0) {
     block.surfaces[block.surface[cell] - 1] = Surface();
   }
+}
+
+SemanticOctree::Block& SemanticOctree::BlockAt(const VoxelIndex& block) {
+  const std::uint32_t number = table_.Insert(block);
+  if (number == blocks_.size()) blocks_.emplace_back();
+  return blocks_[number];
 }
 
 void SemanticOctree::FuseSurface(Block& block, int cell, const LabelledPoint& point) {
@@ -99,13 +99,13 @@ std::vector<VoxelIndex> SemanticOctree::InsertHits(std::span<const LabelledPoint
 }
 
 void SemanticOctree::InsertMisses(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
-  VoxelIndex block_index = VoxelIndex::Constant(std::numeric_limits<int>::max());
+  VoxelIndex last = VoxelIndex::Constant(std::numeric_limits<int>::max());  // in no block
   Block* block = nullptr;
   TraverseRay(origin, end, resolution_m_, [&](const VoxelIndex& voxel) {
-    if (BlockOf(voxel) != block_index) {
-      block_index = BlockOf(voxel);
-      block = &BlockAt(block_index);
-    }
+    const int changed_bits =
+        (voxel.x() ^ last.x()) | (voxel.y() ^ last.y()) | (voxel.z() ^ last.z());
+    if (changed_bits >> kBlockBits != 0) block = &BlockAt(BlockOf(voxel));
+    last = voxel;
     const int cell = CellOf(voxel);
     if (MarkUpdated(*block, cell)) Update(*block, cell, miss_);
   });

@@ -31,13 +31,17 @@ void TraverseRay(const Eigen::Vector3f& origin, const Eigen::Vector3f& end, doub
     border_distance[axis] = (border - origin[axis]) / direction[axis];
     voxel_distance[axis] = resolution_m / std::abs(static_cast<double>(direction[axis]));
   }
+  const auto nearest = [&border_distance] {
+    const Eigen::Vector3d& d = border_distance;
+    return d[0] < d[1] ? (d[0] < d[2] ? 0 : 2) : (d[1] < d[2] ? 1 : 2);
+  };
+  int axis = nearest();
   do {
     visit(voxel);
-    const Eigen::Vector3d& d = border_distance;
-    const int axis = d[0] < d[1] ? (d[0] < d[2] ? 0 : 2) : (d[1] < d[2] ? 1 : 2);
     voxel[axis] += step[axis];
     border_distance[axis] += voxel_distance[axis];
-  } while (voxel != last && border_distance.minCoeff() <= length);
+    axis = nearest();
+  } while (voxel != last && border_distance[axis] <= length);
 }
 
 }  // namespace ofm

@@ -34,10 +34,11 @@ class Components {
 
 /// All pairs, those that share most landmarks first, then in order; the pairs that only follow one
 /// another last.
-std::vector<CovisibilityEdge> AllPairs(const MapSnapshot& map) {
+std::vector<CovisibilityEdge> AllPairs(const MapSnapshot& map, SubmapId submap) {
   std::vector<CovisibilityEdge> pairs;
   KeyframeId last;
   map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    if (keyframe.submap != submap) return;
     for (const CovisibleKeyframe& neighbour : FindCovisible(map, keyframe.id, 1)) {
       if (neighbour.id < keyframe.id) {
         pairs.push_back({neighbour.id, keyframe.id, neighbour.shared_landmarks});
@@ -54,10 +55,11 @@ std::vector<CovisibilityEdge> AllPairs(const MapSnapshot& map) {
 
 }  // namespace
 
-std::vector<CovisibilityEdge> EssentialGraph(const MapSnapshot& map, int strong_covisibility) {
+std::vector<CovisibilityEdge> EssentialGraph(const MapSnapshot& map, SubmapId submap,
+                                             int strong_covisibility) {
   Components components;
   std::vector<CovisibilityEdge> edges;
-  for (const CovisibilityEdge& pair : AllPairs(map)) {
+  for (const CovisibilityEdge& pair : AllPairs(map, submap)) {
     // Kruskal's order makes the tree one of most shared landmarks.
     const bool joins = components.Join(pair.a, pair.b);
     if (joins || (pair.shared_landmarks >= strong_covisibility && pair.shared_landmarks > 0)) {

@@ -14,9 +14,10 @@ struct CovisibilityEdge {
   bool operator==(const CovisibilityEdge&) const = default;
 };
 
-/// A spanning tree of most shared landmarks, and all pairs that share at least
-/// `strong_covisibility` (Mur-Artal, Montiel and Tardos 2015, section III-D). Parts of the map that
+/// A spanning tree of most shared landmarks of a sub-map, and all of its pairs that share at least
+/// `strong_covisibility` (Mur-Artal, Montiel and Tardos 2015, section III-D). Parts of it that
 /// share nothing are joined where they follow one another. In increasing order of (a, b).
-std::vector<CovisibilityEdge> EssentialGraph(const MapSnapshot& map, int strong_covisibility);
+std::vector<CovisibilityEdge> EssentialGraph(const MapSnapshot& map, SubmapId submap,
+                                             int strong_covisibility);
 
 }  // namespace ofm

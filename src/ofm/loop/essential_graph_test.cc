@@ -21,7 +21,7 @@ class SharedMap {
     }
   }
   std::vector<CovisibilityEdge> Graph(int strong) {
-    return EssentialGraph(*map_.Snapshot(), strong);
+    return EssentialGraph(*map_.Snapshot(), SubmapId(0), strong);
   }
   Map& map() { return map_; }
 
@@ -42,6 +42,18 @@ TEST(EssentialGraph, IsATreeOfMostSharedLandmarks) {
   shared.Share(2, 3, 5);
   shared.Share(0, 3, 4);
   const std::vector expected = {Edge(0, 2, 20), Edge(1, 2, 30), Edge(2, 3, 5)};
+  EXPECT_EQ(shared.Graph(1000), expected);
+}
+
+TEST(EssentialGraph, IsOfOneSubmap) {
+  SharedMap shared(2);
+  shared.Share(0, 1, 10);
+  for (const SubmapId submap : {SubmapId(), SubmapId(0)}) {
+    Keyframe keyframe = test::MakePlainKeyframe(3);
+    keyframe.submap = submap;
+    shared.map().AddKeyframe(keyframe);
+  }
+  const std::vector expected = {Edge(0, 1, 10), Edge(1, 3, 0)};
   EXPECT_EQ(shared.Graph(1000), expected);
 }
 

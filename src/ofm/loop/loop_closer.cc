@@ -1,17 +1,25 @@
 #include "ofm/loop/loop_closer.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "ofm/loop/static_landmarks.h"
+#include "ofm/loop/submap_join.h"
 
 namespace ofm {
+namespace {
+
+BagOfWords WordsOf(const Keyframe& keyframe) {
+  return keyframe.words ? *keyframe.words : BagOfWords();
+}
+
+}  // namespace
 
 LoopCloser::LoopCloser(const MeasurementModel& model, const LoopOptions& options,
-                       const Vocabulary& vocabulary, std::uint64_t seed)
+                       std::uint64_t seed, SubmapId fixed_world)
     : model_(model),
       options_(options),
-      vocabulary_(vocabulary),
       seed_(seed),
+      fixed_world_(fixed_world),
       detector_(options),
       keyframes_since_loop_(options.pause_keyframes) {}
 
@@ -19,7 +27,7 @@ std::optional<LoopClosure> LoopCloser::Process(const MapSnapshot& map, KeyframeI
   const Keyframe* keyframe = map.keyframes.Find(id);
   if (keyframe == nullptr) return {};
   LearnLoadedMap(map, id);
-  const BagOfWords words = Describe(map, *keyframe);
+  const BagOfWords words = WordsOf(*keyframe);
   if (keyframes_since_loop_ < options_.pause_keyframes) {
     ++keyframes_since_loop_;
     detector_.Add(id, words);
@@ -31,25 +39,28 @@ std::optional<LoopClosure> LoopCloser::Process(const MapSnapshot& map, KeyframeI
   counts_.inconsistent += candidates.similar - candidates.consistent.size();
   std::optional<VerifiedLoop> loop = Verify(map, id, candidates.consistent);
   if (!loop) return {};
-  auto correction = ComputeLoopCorrection(map, *loop, closed_, model_, options_);
+  auto correction = Correct(map, *loop);
   if (!correction) return {};
   closed_.push_back({loop->keyframe, loop->place});
-  ++counts_.closed;
+  ++(correction->join ? counts_.joined : counts_.closed);
   keyframes_since_loop_ = 0;
   return LoopClosure{std::move(*loop), std::move(*correction)};
 }
 
-/// The words of what stands still.
-BagOfWords LoopCloser::Describe(const MapSnapshot& map, const Keyframe& keyframe) const {
-  return vocabulary_.Describe(StaticDescriptors(map, keyframe, options_.min_static_probability))
-      .words;
+/// Empty where the solver failed.
+std::optional<MapCorrection> LoopCloser::Correct(const MapSnapshot& map, const VerifiedLoop& loop) {
+  const SubmapId here = map.FindSubmap(loop.keyframe), there = map.FindSubmap(loop.place);
+  if (here == there) return ComputeLoopCorrection(map, loop, closed_, model_, options_);
+  SubmapJoin join{std::max(here, there), std::min(here, there)};
+  if (join.from == fixed_world_) std::swap(join.from, join.into);
+  return ComputeSubmapJoin(map, loop, join, model_, options_);
 }
 
 /// Keyframes that were in the map before the first one that is processed.
 void LoopCloser::LearnLoadedMap(const MapSnapshot& map, KeyframeId first) {
   if (std::exchange(knows_loaded_map_, true)) return;
   map.keyframes.ForEach([&](const Keyframe& keyframe) {
-    if (keyframe.id < first) detector_.Add(keyframe.id, Describe(map, keyframe));
+    if (keyframe.id < first) detector_.Add(keyframe.id, WordsOf(keyframe));
   });
 }
 

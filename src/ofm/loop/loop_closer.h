@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "ofm/features/vocabulary.h"
 #include "ofm/loop/loop_correction.h"
 #include "ofm/loop/loop_detector.h"
 
@@ -15,40 +14,41 @@ struct LoopCounts {
   std::size_t keyframes = 0;  ///< in which a loop was looked for
   std::size_t similar = 0;    ///< pairs of keyframes that look alike
   std::size_t inconsistent = 0, few_matches = 0, no_alignment = 0, few_inliers = 0;  ///< rejected
-  std::size_t closed = 0;
+  std::size_t closed = 0;  ///< within a sub-map
+  std::size_t joined = 0;  ///< sub-maps that became part of another one
 };
 
-/// A loop and what it means for the map.
+/// A loop, or a place that two sub-maps show, and what it means for the map.
 struct LoopClosure {
   VerifiedLoop loop;
   MapCorrection correction;
 };
 
-/// Looks for loops, keyframe by keyframe. Serves one thread.
+/// Looks for loops, keyframe by keyframe, by the words that each has. Serves one thread.
 class LoopCloser {
  public:
-  /// `vocabulary` must outlive it. `seed` decides all random draws, together with the keyframe's
-  /// id.
-  LoopCloser(const MeasurementModel& model, const LoopOptions& options,
-             const Vocabulary& vocabulary, std::uint64_t seed);
+  /// `seed` decides all random draws, together with the keyframe's id. Of two sub-maps the older
+  /// one keeps its world, but `fixed_world` always does.
+  LoopCloser(const MeasurementModel& model, const LoopOptions& options, std::uint64_t seed,
+             SubmapId fixed_world = {});
 
   /// Looks for a loop at keyframe `id` of `map`; keyframes come in increasing order of id. What is
   /// found counts as closed: the caller applies the correction. Keyframes before the first one, of
-  /// a map that was loaded, are places too.
+  /// a map that was loaded, are places too. A place of another sub-map joins the two.
   std::optional<LoopClosure> Process(const MapSnapshot& map, KeyframeId id);
 
   const LoopCounts& counts() const { return counts_; }
 
  private:
-  BagOfWords Describe(const MapSnapshot& map, const Keyframe& keyframe) const;
   void LearnLoadedMap(const MapSnapshot& map, KeyframeId first);
   std::optional<VerifiedLoop> Verify(const MapSnapshot& map, KeyframeId id,
                                      const std::vector<KeyframeId>& candidates);
+  std::optional<MapCorrection> Correct(const MapSnapshot& map, const VerifiedLoop& loop);
 
   MeasurementModel model_;
   LoopOptions options_;
-  const Vocabulary& vocabulary_;
   std::uint64_t seed_;
+  SubmapId fixed_world_;
   LoopDetector detector_;
   std::vector<ClosedLoop> closed_;
   int keyframes_since_loop_;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "ofm/features/default_vocabulary.h"
 #include "ofm/loop/test_ring.h"
 
 namespace ofm {
@@ -13,25 +12,35 @@ constexpr int kRound = 24;
 /// A way round with the stage at work, the corrections applied.
 struct ClosingRun {
   explicit ClosingRun(const test::RingOptions& ring = {}, const LoopOptions& options = {},
-                      std::uint64_t seed = 1)
-      : made(ring), closer(made.world.model(), options, DefaultVocabulary(), seed) {}
+                      std::uint64_t seed = 1, SubmapId fixed_world = {})
+      : made(ring), closer(made.world.model(), options, seed, fixed_world) {}
 
   /// On to keyframe `end`, or the first loop.
   void Run(int end) {
     for (int i = static_cast<int>(made.map.keyframes().size()); i < end; ++i) {
       made.AddUpTo(i + 1);
-      error_before = made.Error_m(KeyframeId(i));
-      const auto closure = closer.Process(*made.map.Snapshot(), KeyframeId(i));
-      if (!closure) continue;
-      loops.push_back(closure->loop);
-      fused += ApplyCorrection(closure->correction, made.map).landmarks_fused;
-      error_after = made.Error_m(KeyframeId(i));
-      break;
+      if (Look(KeyframeId(i))) break;
     }
+  }
+  /// Keyframes of views [first, end), or up to the first loop.
+  void RunViews(int first, int end) {
+    for (int i = first; i < end && !Look(made.Add(i)); ++i) {
+    }
+  }
+  bool Look(KeyframeId id) {
+    error_before = made.Error_m(id);
+    const auto closure = closer.Process(*made.map.Snapshot(), id);
+    if (!closure) return false;
+    loops.push_back(closure->loop);
+    if (closure->correction.join) joins.push_back(*closure->correction.join);
+    fused += ApplyCorrection(closure->correction, made.map).landmarks_fused;
+    error_after = made.Error_m(id);
+    return true;
   }
   test::RingMap made;
   LoopCloser closer;
   std::vector<VerifiedLoop> loops;
+  std::vector<SubmapJoin> joins;
   int fused = 0;
   double error_before = 0, error_after = 0;
 };
@@ -107,6 +116,36 @@ TEST(LoopCloser, KeyframesOfALoadedMapArePlacesToo) {
   run.made.AddUpTo(kRound - 8);
   run.Run(kRound + 6);
   EXPECT_EQ(run.loops.size(), 1U);
+}
+
+/// Sub-map 0 is views 0 to 9, sub-map 10 views 14 and on: until the camera is back at view 0 = 24.
+ClosingRun LostRun(SubmapId fixed_world = {}) {
+  ClosingRun run({.drift_m = 0.002, .drift_rad = 0.001}, {}, 1, fixed_world);
+  run.RunViews(0, 10);
+  run.made.BeginSubmap({ExpSo3({1, 0, 2}), {3, 4, 5}});
+  run.RunViews(14, kRound + 8);
+  return run;
+}
+
+TEST(LoopCloser, APlaceOfAnotherSubmapJoinsTheTwo) {
+  const ClosingRun run = LostRun();
+  ASSERT_EQ(run.joins.size(), 1U);
+  EXPECT_EQ(run.joins.front().from, SubmapId(10));
+  EXPECT_EQ(run.joins.front().into, SubmapId(0));
+  EXPECT_EQ(run.closer.counts().joined, 1U);
+  EXPECT_EQ(run.closer.counts().closed, 0U);
+  EXPECT_GT(run.fused, 50);
+  const KeyframeId last = run.loops.front().keyframe;
+  EXPECT_LT(run.error_after, 0.05);
+  EXPECT_EQ(run.made.map.FindSubmap(last), SubmapId(0));
+  EXPECT_EQ(test::FindProblem(run.made.map), "");
+}
+
+TEST(LoopCloser, TheFixedWorldStaysWhateverItsAge) {
+  const ClosingRun run = LostRun(SubmapId(10));
+  ASSERT_EQ(run.joins.size(), 1U);
+  EXPECT_EQ(run.joins.front().from, SubmapId(0));
+  EXPECT_EQ(run.joins.front().into, SubmapId(10));
 }
 
 TEST(LoopCloser, AKeyframeThatIsGoneIsNoError) {

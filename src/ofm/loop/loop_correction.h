@@ -14,10 +14,10 @@ struct ClosedLoop {
   KeyframeId keyframe, place;
 };
 
-/// Poses of all keyframes after a pose graph over the essential graph, the earlier loops and this
-/// one (Strasdat, Davison, Montiel and Konolige, Double Window Optimisation, ICCV 2011; Mur-Artal
-/// and Tardos 2014), with the oldest keyframe fixed; and the duplicates that the loop shows.
-/// Landmarks move with their keyframes. Empty where the solver failed.
+/// Poses of the keyframes of the loop's sub-map after a pose graph over the essential graph, the
+/// earlier loops and this one (Strasdat, Davison, Montiel and Konolige, Double Window Optimisation,
+/// ICCV 2011; Mur-Artal and Tardos 2014), with its oldest keyframe fixed; and the duplicates that
+/// the loop shows. Landmarks move with their keyframes. Empty where the solver failed.
 std::optional<MapCorrection> ComputeLoopCorrection(const MapSnapshot& map, const VerifiedLoop& loop,
                                                    const std::vector<ClosedLoop>& earlier,
                                                    const MeasurementModel& model,

@@ -54,6 +54,18 @@ TEST(LoopCorrection, TheFirstKeyframeStays) {
   EXPECT_EQ(correction.keyframes.size(), kRound + 1U) << "all keyframes are named";
 }
 
+TEST(LoopCorrection, AnotherSubmapIsNamedButStaysWhereItIs) {
+  Round round;
+  Keyframe apart = round.made.map.GetKeyframe(KeyframeId(3));
+  apart.submap = SubmapId();
+  apart.landmarks.assign(apart.landmarks.size(), LandmarkId());
+  const KeyframeId id = round.made.map.AddKeyframe(apart);
+  const MapCorrection correction = round.Correct();
+  EXPECT_EQ(correction.keyframes.size(), kRound + 2U);
+  EXPECT_TRUE(test::IsSame(correction.keyframes.at(id).after, apart.camera_from_world));
+  EXPECT_FALSE(correction.join);
+}
+
 TEST(LoopCorrection, DuplicatesBecomeOneLandmark) {
   Round round;
   const std::size_t before = round.made.map.landmarks().size();

@@ -34,6 +34,7 @@ bool Intersect(const std::set<KeyframeId>& a, const std::set<KeyframeId>& b) {
 void LoopDetector::Add(KeyframeId id, const BagOfWords& words) {
   database_.Add(id, words);
   rows_.clear();
+  last_ = id;
 }
 
 /// Keyframes out of the surroundings of `id` that look about as much like it as its neighbours do.
@@ -63,6 +64,9 @@ std::vector<KeyframeId> LoopDetector::FindSimilar(const MapSnapshot& map, Keyfra
 LoopCandidates LoopDetector::Detect(const MapSnapshot& map, KeyframeId id,
                                     const BagOfWords& words) {
   LoopCandidates candidates;
+  // A row ends where the camera was lost.
+  if (map.FindSubmap(last_) != map.FindSubmap(id)) rows_.clear();
+  last_ = id;
   std::vector<Row> rows;
   for (const KeyframeId similar : FindSimilar(map, id, words)) {
     ++candidates.similar;

@@ -20,7 +20,7 @@ struct LoopCandidates {
 /// Candidates by appearance, with the checks of Mur-Artal and Tardos (Fast Relocalisation and Loop
 /// Closing in Keyframe-Based SLAM, ICRA 2014, section V-A): no neighbour of the keyframe (nor one
 /// of its neighbours'), about as similar as its best neighbour, and of neighbouring places over
-/// several keyframes in a row.
+/// several keyframes in a row, all of one sub-map.
 class LoopDetector {
  public:
   explicit LoopDetector(const LoopOptions& options) : options_(options) {}
@@ -44,6 +44,7 @@ class LoopDetector {
   LoopOptions options_;
   PlaceDatabase database_;
   std::vector<Row> rows_;  // of the last keyframe
+  KeyframeId last_;
 };
 
 }  // namespace ofm

@@ -19,7 +19,9 @@ class Walk {
   /// A further keyframe, of place `place`.
   LoopCandidates Step(std::uint32_t place) {
     const KeyframeId last = map_.latest_keyframe();
-    const KeyframeId id = map_.AddKeyframe(test::MakePlainKeyframe(60));
+    Keyframe keyframe = test::MakePlainKeyframe(60);
+    keyframe.submap = submap;
+    const KeyframeId id = map_.AddKeyframe(std::move(keyframe));
     if (last.valid()) {
       for (int i = 0; i < 20; ++i) {
         map_.AddObservation(map_.AddLandmark({0, 0, 2}, last, 20 + i), id, i);
@@ -33,6 +35,8 @@ class Walk {
     detector_.Add(id, Words(place, id));
   }
   Map& map() { return map_; }
+
+  SubmapId submap = SubmapId(0);  ///< of the next keyframe
 
  private:
   /// Of 20 words a keyframe has 16 in common with another of its place, 4 with one of a place next
@@ -55,6 +59,20 @@ class Walk {
 /// Three keyframes at each of the places 0 to 5, which are 18.
 void WalkAway(Walk& walk) {
   for (std::uint32_t i = 0; i < 18; ++i) EXPECT_THAT(walk.Step(i / 3).consistent, IsEmpty()) << i;
+}
+
+TEST(LoopDetector, ARowEndsWhereTheCameraWasLost) {
+  Walk walk;
+  WalkAway(walk);
+  walk.Step(0);
+  walk.Step(0);
+  walk.submap = SubmapId(7);
+  for (int i = 0; i < 2; ++i) {
+    const LoopCandidates found = walk.Step(0);
+    EXPECT_GE(found.similar, 3);
+    EXPECT_THAT(found.consistent, IsEmpty()) << i;
+  }
+  EXPECT_THAT(walk.Step(0).consistent, testing::Not(IsEmpty()));
 }
 
 TEST(LoopDetector, ThreeInARowMakeACandidate) {

@@ -39,7 +39,7 @@ struct LoopOptions {
           "of these that must agree on one rigid transform", Range{3, 1000});
     visit("min_inliers", self.min_inliers, "landmarks found with that transform", Range{3, 1000});
     visit("min_static_probability", self.min_static_probability,
-          "of features and landmarks that take part in places and loops", Range{0, 1});
+          "of features and landmarks that take part in loops", Range{0, 1});
     visit("strong_covisibility", self.strong_covisibility,
           "shared landmarks that make an edge of the pose graph", Range{1, 10000});
     visit("ransac_iterations", self.ransac.iterations, "of the alignment at most",

@@ -1,7 +1,5 @@
-// What stands still, of keyframes: nothing else takes part in places and loops.
+// What stands still, of keyframes: nothing else takes part in loops.
 #pragma once
-
-#include <vector>
 
 #include "ofm/map/map.h"
 
@@ -14,18 +12,6 @@ inline bool IsStatic(const MapSnapshot& map, const Keyframe& keyframe, int featu
   if (keyframe.features->StaticProbability(feature) < min_probability) return false;
   const Landmark* landmark = map.FindLandmark(keyframe.landmarks[feature]);
   return landmark == nullptr || landmark->static_probability >= min_probability;
-}
-
-/// Descriptors of the keyframe's static features.
-inline std::vector<Descriptor> StaticDescriptors(const MapSnapshot& map, const Keyframe& keyframe,
-                                                 double min_probability) {
-  std::vector<Descriptor> descriptors;
-  for (std::size_t i = 0; i < keyframe.features->size(); ++i) {
-    if (IsStatic(map, keyframe, static_cast<int>(i), min_probability)) {
-      descriptors.push_back(keyframe.features->descriptors[i]);
-    }
-  }
-  return descriptors;
 }
 
 }  // namespace ofm

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "ofm/features/static_words.h"
 #include "ofm/map/test_map.h"
 #include "ofm/sim/normal_deviate.h"
 #include "ofm/tracking/measurement.h"
@@ -96,12 +98,22 @@ class RingMap {
   void AddUpTo(int end) {
     while (next_ < end) Add(next_++);
   }
+  /// The next keyframe knows nothing of those before: it begins a sub-map, at `camera_from_world`.
+  void BeginSubmap(const RigidTransform& camera_from_world) {
+    begin_ = camera_from_world;
+    last_ = KeyframeId();
+    name_of_.clear();
+  }
   KeyframeId Add(int i) {
     const RingWorld::View view = world.Look(i);
     Keyframe keyframe = MakeTestKeyframe(view.features);
     keyframe.stamp_ns = i;
+    keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*view.features));
     keyframe.camera_from_world = world.Truth(i);
+    if (begin_) keyframe.camera_from_world = *begin_, keyframe.submap = SubmapId();
+    begin_.reset();
     if (last_.valid()) {
+      keyframe.submap = map.FindSubmap(last_);
       keyframe.camera_from_world = world.DriftOf(i) * world.Truth(i) *
                                    world.Truth(i - 1).Inverse() *
                                    map.GetKeyframe(last_).camera_from_world;
@@ -145,6 +157,7 @@ class RingMap {
  private:
   int next_ = 0;
   KeyframeId last_;
+  std::optional<RigidTransform> begin_;
   std::map<int, LandmarkId> name_of_;  // of the world's landmarks that the last keyframe showed
 };
 

@@ -15,6 +15,7 @@ struct Keyframe {
   KeyframeId id;
   FrameId frame_id;  ///< of the run that made it; invalid in a map that was loaded
   std::int64_t stamp_ns = 0;
+  SubmapId submap = SubmapId(0);  ///< whose world `camera_from_world` is about
   RigidTransform camera_from_world;
   std::shared_ptr<const FrameFeatures> features;
   std::shared_ptr<const BagOfWords> words;  ///< StaticWords, to recognise the place; may be null

@@ -13,21 +13,35 @@ LandmarkId FollowReplacements(LandmarkId id, const std::vector<LandmarkId>& repl
   return id;
 }
 
-/// Pose of a keyframe of `keyframes` or of one that is anchored to such, over any number of others.
+/// A keyframe that is in the map, and where another one was relative to it.
+struct Anchored {
+  const Keyframe* keyframe = nullptr;  ///< null where there is none
+  RigidTransform camera_from_keyframe;
+};
+
+/// A keyframe of `keyframes`, or the one that it is anchored to, over any number of others.
 template <class Keyframes>
-std::optional<RigidTransform> PoseByAnchors(const Keyframes& keyframes,
-                                            const std::map<KeyframeId, KeyframeAnchor>& anchors,
-                                            KeyframeId id) {
-  RigidTransform camera_from_anchor;
-  const Keyframe* keyframe = keyframes.Find(id);
-  while (keyframe == nullptr) {
+Anchored FollowAnchors(const Keyframes& keyframes,
+                       const std::map<KeyframeId, KeyframeAnchor>& anchors, KeyframeId id) {
+  Anchored anchored{keyframes.Find(id), {}};
+  while (anchored.keyframe == nullptr) {
     const auto anchor = anchors.find(id);
     if (anchor == anchors.end()) return {};
-    camera_from_anchor = camera_from_anchor * anchor->second.removed_from_keyframe;
+    anchored.camera_from_keyframe =
+        anchored.camera_from_keyframe * anchor->second.removed_from_keyframe;
     id = anchor->second.keyframe;
-    keyframe = keyframes.Find(id);
+    anchored.keyframe = keyframes.Find(id);
   }
-  return camera_from_anchor * keyframe->camera_from_world;
+  return anchored;
+}
+
+std::optional<RigidTransform> PoseOf(const Anchored& anchored) {
+  if (anchored.keyframe == nullptr) return {};
+  return anchored.camera_from_keyframe * anchored.keyframe->camera_from_world;
+}
+
+SubmapId SubmapOf(const Anchored& anchored) {
+  return anchored.keyframe == nullptr ? SubmapId() : anchored.keyframe->submap;
 }
 
 /// The descriptor with the least median distance to the others (Mur-Artal et al. 2015).
@@ -53,11 +67,19 @@ const Landmark* MapSnapshot::FindLandmark(LandmarkId id) const {
 }
 
 std::optional<RigidTransform> MapSnapshot::FindKeyframePose(KeyframeId id) const {
-  return PoseByAnchors(keyframes, anchors, id);
+  return PoseOf(FollowAnchors(keyframes, anchors, id));
+}
+
+SubmapId MapSnapshot::FindSubmap(KeyframeId id) const {
+  return SubmapOf(FollowAnchors(keyframes, anchors, id));
 }
 
 std::optional<RigidTransform> Map::FindKeyframePose(KeyframeId id) const {
-  return PoseByAnchors(keyframes_, anchors_, id);
+  return PoseOf(FollowAnchors(keyframes_, anchors_, id));
+}
+
+SubmapId Map::FindSubmap(KeyframeId id) const {
+  return SubmapOf(FollowAnchors(keyframes_, anchors_, id));
 }
 
 Map::Map(OctaveScales scales, const MapSnapshot& snapshot)
@@ -79,7 +101,9 @@ KeyframeId Map::AddKeyframe(Keyframe keyframe) {
   const std::vector<LandmarkId> wanted = std::move(keyframe.landmarks);
   OFM_CHECK(wanted.size() == keyframe.features->size());
   keyframe.landmarks.assign(wanted.size(), LandmarkId());
+  const bool begins_submap = !keyframe.submap.valid();
   latest_keyframe_ = keyframes_.Insert(std::move(keyframe));
+  if (begins_submap) keyframes_.Edit(latest_keyframe_).submap = SubmapId(latest_keyframe_.value);
   for (std::size_t feature = 0; feature < wanted.size(); ++feature) {
     const Landmark* landmark = wanted[feature].valid() ? FindLandmark(wanted[feature]) : nullptr;
     if (landmark == nullptr || landmark->FeatureIn(latest_keyframe_) >= 0) continue;
@@ -159,6 +183,14 @@ void Map::Fuse(LandmarkId from, LandmarkId into) {
 
 void Map::SetKeyframePose(KeyframeId id, const RigidTransform& camera_from_world) {
   keyframes_.Edit(id).camera_from_world = camera_from_world;
+}
+
+void Map::JoinSubmaps(SubmapId from, SubmapId into) {
+  std::vector<KeyframeId> joined;
+  keyframes_.ForEach([&](const Keyframe& keyframe) {
+    if (keyframe.submap == from) joined.push_back(keyframe.id);
+  });
+  for (const KeyframeId id : joined) keyframes_.Edit(id).submap = into;
 }
 
 void Map::SetLandmarkPosition(LandmarkId id, const Eigen::Vector3d& position_in_world) {

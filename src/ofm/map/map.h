@@ -31,6 +31,8 @@ struct MapSnapshot {
   const Landmark* FindLandmark(LandmarkId id) const;
   /// Pose of a keyframe, also of one that was removed; empty where it never was.
   std::optional<RigidTransform> FindKeyframePose(KeyframeId id) const;
+  /// Its sub-map, likewise; invalid where it never was.
+  SubmapId FindSubmap(KeyframeId id) const;
 };
 
 /// Keyframes and landmarks by id, consistent with one another: a keyframe's feature names a
@@ -43,7 +45,7 @@ class Map {
   Map(OctaveScales scales, const MapSnapshot& snapshot);
 
   /// Adds a keyframe whose landmarks are named by `keyframe.landmarks`; names that are gone or come
-  /// twice are dropped. Sets the id.
+  /// twice are dropped. Sets the id. Without a sub-map it begins one, which gets the same number.
   KeyframeId AddKeyframe(Keyframe keyframe);
   /// Adds a landmark seen by one feature, with its descriptor and view taken from it.
   LandmarkId AddLandmark(const Eigen::Vector3d& position_in_world, KeyframeId keyframe,
@@ -62,6 +64,8 @@ class Map {
   void Fuse(LandmarkId from, LandmarkId into);
 
   void SetKeyframePose(KeyframeId id, const RigidTransform& camera_from_world);
+  /// Makes the keyframes of `from` keyframes of `into`. Who moves them is another matter.
+  void JoinSubmaps(SubmapId from, SubmapId into);
   void SetLandmarkPosition(LandmarkId id, const Eigen::Vector3d& position_in_world);
   /// Recomputes mean view, distance range and descriptor from the observations.
   void RefreshLandmark(LandmarkId id);
@@ -78,6 +82,8 @@ class Map {
   const Landmark& GetLandmark(LandmarkId id) const { return landmarks_.Get(id); }
   /// Pose of a keyframe, also of one that was removed; empty where it never was.
   std::optional<RigidTransform> FindKeyframePose(KeyframeId id) const;
+  /// Its sub-map, likewise; invalid where it never was.
+  SubmapId FindSubmap(KeyframeId id) const;
   const VersionedTable<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
   const VersionedTable<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
   KeyframeId latest_keyframe() const { return latest_keyframe_; }

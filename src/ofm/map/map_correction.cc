@@ -21,8 +21,12 @@ RigidTransform MotionOfAdded(const Map& map, KeyframeId id, const WorldMotions& 
     const auto motion = motions.find(neighbour.id);
     if (motion != motions.end()) return motion->second;
   }
-  auto later = motions.upper_bound(id);
-  return later == motions.begin() ? RigidTransform() : std::prev(later)->second;
+  const SubmapId submap = map.FindSubmap(id);
+  for (auto later = motions.upper_bound(id); later != motions.begin(); --later) {
+    const auto& [before, motion] = *std::prev(later);
+    if (map.FindSubmap(before) == submap) return motion;
+  }
+  return {};
 }
 
 WorldMotions MoveKeyframes(const MapCorrection& correction, Map& map) {
@@ -100,6 +104,7 @@ CorrectionReport ApplyCorrection(const MapCorrection& correction, Map& map) {
   CorrectionReport report;
   const WorldMotions motions = MoveKeyframes(correction, map);
   MoveLandmarks(correction, motions, map);
+  if (correction.join) map.JoinSubmaps(correction.join->from, correction.join->into);
   report.observations_removed = RemoveWrong(correction, map);
   AddFound(correction, map, report);
   std::vector<LandmarkId> landmarks;

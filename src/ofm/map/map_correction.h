@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "ofm/map/map.h"
@@ -13,6 +14,11 @@ struct LandmarkSighting {
   LandmarkId landmark;
   KeyframeId keyframe;
   int feature = 0;
+};
+
+/// That a sub-map becomes part of another one.
+struct SubmapJoin {
+  SubmapId from, into;
 };
 
 /// New places of all keyframes of a snapshot, and what else is to be changed. A value.
@@ -33,6 +39,8 @@ struct MapCorrection {
   /// Features that show known landmarks. Where a feature shows another one, that one is fused into
   /// the known one; two landmarks that are both named here are never fused.
   std::vector<LandmarkSighting> found;
+  /// Where the moves bring a sub-map into the world of another one.
+  std::optional<SubmapJoin> join;
 };
 
 struct CorrectionReport {
@@ -42,8 +50,8 @@ struct CorrectionReport {
 
 /// Applies the correction to what is still there. Who was moved since the snapshot was taken keeps
 /// that motion, and what was added since moves along with the keyframe it shares most landmarks
-/// with: nobody has to wait for an optimiser (as in Cartographer, Hess et al., Real-Time Loop
-/// Closure in 2D LIDAR SLAM, ICRA 2016).
+/// with, or one of its sub-map: nobody has to wait for an optimiser (as in Cartographer, Hess et
+/// al., Real-Time Loop Closure in 2D LIDAR SLAM, ICRA 2016).
 CorrectionReport ApplyCorrection(const MapCorrection& correction, Map& map);
 
 }  // namespace ofm

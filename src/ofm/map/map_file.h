@@ -31,7 +31,7 @@ struct StoredMap {
 };
 
 /// Of the format; a file of another one is not read.
-inline constexpr int kMapFileVersion = 1;
+inline constexpr int kMapFileVersion = 2;
 
 /// Writes the map in one step (WriteFileAtomically): an older file at `path` stays whole whatever
 /// happens. The same map gives the same bytes. Of keyframes all is kept but their frames' ids,

@@ -150,12 +150,24 @@ TEST_F(MapFile, SomethingElseIsNoMap) {
   }
 }
 
+TEST_F(MapFile, SubmapsStayApart) {
+  Map map(test::TestScales(), *MakeMap());
+  Keyframe apart = test::MakePlainKeyframe(5);
+  apart.submap = SubmapId();
+  map.AddKeyframe(apart);
+  SaveMap(path_, *map.Snapshot(), {});
+  const StoredMap stored = LoadMap(path_);
+  EXPECT_EQ(test::FindDifference(*stored.map, *map.Snapshot()), "");
+  EXPECT_EQ(stored.map->FindSubmap(KeyframeId(3)), SubmapId(0));
+  EXPECT_EQ(stored.map->FindSubmap(KeyframeId(4)), SubmapId(4));
+}
+
 TEST_F(MapFile, AnotherVersionIsNamed) {
   SaveMap(path_, *MakeMap(), {});
   std::string bytes = ReadFile(path_);
-  bytes[63] = 2;  // the last byte of SQLite's user_version
+  bytes[63] = 3;  // the last byte of SQLite's user_version
   EXPECT_THAT(ErrorOfBytes(Seal(bytes.substr(0, bytes.rfind("\nofm-map")))),
-              HasSubstr("is a map of version 2, but this program reads version 1; make it anew"));
+              HasSubstr("is a map of version 3, but this program reads version 2; make it anew"));
 }
 
 TEST_F(MapFile, TablesThatContradictThemselvesAreFound) {
@@ -168,6 +180,8 @@ TEST_F(MapFile, TablesThatContradictThemselvesAreFound) {
       {"UPDATE keyframes SET octaves = x'09090909090909090909'", "a level that there is not"},
       {"UPDATE settings SET value = '1' WHERE name = 'keyframe_ids'", "id was never issued"},
       {"DELETE FROM keyframes", "no keyframe names a landmark"},
+      {"UPDATE keyframes SET submap = 3 WHERE id = 3", "a landmark is of two sub-maps"},
+      {"UPDATE keyframes SET submap = 4", "a sub-map was never begun"},
       {"DROP TABLE anchors", "no such table: anchors"}};
   for (const auto& [sql, reason] : cases) {
     EXPECT_THAT(ErrorOfBytes(Changed(sql)),

@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are stored as
 constexpr const char* kSchema[] = {
     "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE keyframes (id INTEGER PRIMARY KEY, stamp_ns INTEGER NOT NULL, "
-    "qx REAL, qy REAL, qz REAL, qw REAL, tx REAL, ty REAL, tz REAL, "
+    "submap INTEGER NOT NULL, qx REAL, qy REAL, qz REAL, qw REAL, tx REAL, ty REAL, tz REAL, "
     "pixels_px BLOB, octaves BLOB, angles_rad BLOB, responses BLOB, descriptors BLOB, "
     "ideal_px BLOB, depths_m BLOB, static_probabilities BLOB, landmarks BLOB)",
     "CREATE TABLE landmarks (id INTEGER PRIMARY KEY, x REAL, y REAL, z REAL, "
@@ -93,7 +93,7 @@ void ReadSettings(const SqliteDatabase& database, const std::vector<OptionField>
 
 void WriteKeyframes(SqliteDatabase& database, const MapSnapshot& map) {
   SqliteStatement insert = database.Prepare(
-      "INSERT INTO keyframes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      "INSERT INTO keyframes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   map.keyframes.ForEach([&](const Keyframe& keyframe) {
     const FrameFeatures& features = *keyframe.features;
     std::vector<Eigen::Vector2f> pixels;
@@ -110,10 +110,11 @@ void WriteKeyframes(SqliteDatabase& database, const MapSnapshot& map) {
     const std::vector<float> pixels_px = Flatten(pixels), ideal_px = Flatten(features.ideal_px);
     const Eigen::Quaterniond& q = keyframe.camera_from_world.rotation();
     const Eigen::Vector3d& t = keyframe.camera_from_world.translation();
-    insert.Run(Integer(keyframe.id.value), keyframe.stamp_ns, q.x(), q.y(), q.z(), q.w(), t.x(),
-               t.y(), t.z(), BytesOf(pixels_px), BytesOf(octaves), BytesOf(angles_rad),
-               BytesOf(responses), BytesOf(features.descriptors), BytesOf(ideal_px),
-               BytesOf(features.depth_m), BytesOf(features.static_probability), BytesOf(landmarks));
+    insert.Run(Integer(keyframe.id.value), keyframe.stamp_ns, Integer(keyframe.submap.value), q.x(),
+               q.y(), q.z(), q.w(), t.x(), t.y(), t.z(), BytesOf(pixels_px), BytesOf(octaves),
+               BytesOf(angles_rad), BytesOf(responses), BytesOf(features.descriptors),
+               BytesOf(ideal_px), BytesOf(features.depth_m), BytesOf(features.static_probability),
+               BytesOf(landmarks));
   });
 }
 
@@ -153,14 +154,16 @@ Objects<Keyframe> ReadKeyframes(const SqliteDatabase& database, const MapSetting
     auto keyframe = std::make_shared<Keyframe>();
     keyframe->id = KeyframeId(static_cast<std::uint32_t>(row.Integer(0)));
     keyframe->stamp_ns = row.Integer(1);
-    keyframe->camera_from_world = ReadTransform(row, 2);
-    keyframe->features = ReadFeatures(row, 9, settings);
+    keyframe->submap = SubmapId(static_cast<std::uint32_t>(row.Integer(2)));
+    keyframe->camera_from_world = ReadTransform(row, 3);
+    keyframe->features = ReadFeatures(row, 10, settings);
     keyframe->words = std::make_shared<const BagOfWords>(StaticWords(*keyframe->features));
     for (const std::uint32_t id :
-         NumbersOf<std::uint32_t>(row.Blob(17), keyframe->features->size())) {
+         NumbersOf<std::uint32_t>(row.Blob(18), keyframe->features->size())) {
       keyframe->landmarks.emplace_back(id);
     }
     if (keyframe->id.value >= keyframes.size()) throw Error("a keyframe's id was never issued");
+    if (keyframe->submap.value >= keyframes.size()) throw Error("a sub-map was never begun");
     keyframes[keyframe->id.value] = std::move(keyframe);
   }
   return keyframes;
@@ -215,6 +218,10 @@ void AddObservations(const Objects<Keyframe>& keyframes, const Objects<Landmark>
       auto& observations = landmarks[id.value]->observations;
       if (!observations.empty() && observations.back().keyframe == keyframe->id) {
         throw Error("a keyframe names a landmark twice");
+      }
+      if (!observations.empty() &&
+          keyframes[observations.front().keyframe.value]->submap != keyframe->submap) {
+        throw Error("a landmark is of two sub-maps");
       }
       observations.push_back({keyframe->id, static_cast<int>(i)});
     }

@@ -86,6 +86,7 @@ std::string FindLandmarkProblem(const Landmark& landmark, FindKeyframe&& find_ke
   const std::string name = "landmark " + std::to_string(landmark.id.value) + ": ";
   if (landmark.observations.empty()) return name + "no observations";
   KeyframeId before;
+  SubmapId submap;
   for (const Landmark::Observation& o : landmark.observations) {
     if (before.valid() && !(before < o.keyframe)) return name + "observations out of order";
     before = o.keyframe;
@@ -94,6 +95,8 @@ std::string FindLandmarkProblem(const Landmark& landmark, FindKeyframe&& find_ke
     if (keyframe->landmarks.at(o.feature) != landmark.id) {
       return name + "keyframe " + std::to_string(o.keyframe.value) + " names another one";
     }
+    if (submap.valid() && keyframe->submap != submap) return name + "seen from two sub-maps";
+    submap = keyframe->submap;
   }
   return {};
 }
@@ -189,8 +192,9 @@ inline bool IsSame(const Landmark& a, const Landmark& b) {
 }
 
 inline bool IsSame(const Keyframe& a, const Keyframe& b) {
-  return a.id == b.id && a.stamp_ns == b.stamp_ns && a.landmarks == b.landmarks &&
-         IsSame(a.camera_from_world, b.camera_from_world) && IsSame(*a.features, *b.features);
+  return a.id == b.id && a.stamp_ns == b.stamp_ns && a.submap == b.submap &&
+         a.landmarks == b.landmarks && IsSame(a.camera_from_world, b.camera_from_world) &&
+         IsSame(*a.features, *b.features);
 }
 
 template <class Id, class T>

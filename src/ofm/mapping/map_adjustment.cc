@@ -142,11 +142,11 @@ std::optional<MapCorrection> ComputeWholeAdjustment(const MapSnapshot& map,
                                                     const BundleOptions& bundle,
                                                     std::stop_token stop) {
   AdjustmentScope scope;
-  map.keyframes.ForEach([&](const Keyframe& keyframe) { scope.free.insert(keyframe.id); });
-  if (scope.free.empty()) return {};
-  const KeyframeId oldest = *scope.free.begin();
-  scope.free.erase(oldest);
-  scope.fixed.insert(oldest);
+  std::set<SubmapId> held;  // each frame of reference, by its oldest keyframe
+  map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    (held.insert(keyframe.submap).second ? scope.fixed : scope.free).insert(keyframe.id);
+  });
+  if (scope.fixed.empty()) return {};
   map.landmarks.ForEach([&](const Landmark& landmark) { scope.landmarks.insert(landmark.id); });
   const MapExtract extract = Extract(map.keyframes, map.landmarks, scope, model);
   const BundleResult result = AdjustBundle(model.camera, extract.problem, bundle, stop);

@@ -8,6 +8,7 @@
 namespace ofm {
 namespace {
 
+using test::Association;
 using test::FindProblem;
 using test::MadeFrame;
 using test::TrueMap;
@@ -108,6 +109,28 @@ TEST_F(MapAdjustment, LocalOneAroundTheFirstKeyframeLeavesThatFixed) {
   AdjustLocally(made_.map, KeyframeId(5), made_.world.model(), options_);
   EXPECT_TRUE(IsAtTruth(0));
   EXPECT_LT(made_.PoseError_m(), 1e-3);
+}
+
+TEST_F(MapAdjustment, EachSubmapIsHeldByItsOldestKeyframe) {
+  const std::size_t apart = made_.map.keyframes().size();
+  Association known;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const MadeFrame frame = made_.world.Frame(4 * i);
+    Keyframe keyframe = test::MakeTestKeyframe(frame.features, frame.camera_from_world);
+    keyframe.submap = i == 0 ? SubmapId() : SubmapId(static_cast<std::uint32_t>(apart));
+    keyframe.landmarks = known.Names(made_.map, frame);
+    const KeyframeId id = test::AddWithDepth(made_.map, made_.world.model(), keyframe);
+    known.Learn(made_.map.GetKeyframe(id), frame);
+    made_.truth.push_back(frame.camera_from_world);
+  }
+  Disturb();
+  const auto begun = static_cast<std::uint32_t>(apart);
+  made_.map.SetKeyframePose(KeyframeId(begun + 1), test::CameraAt(0.01, 0, 0) * Pose(begun + 1));
+  AdjustWholeMap(made_.map, made_.world.model(), options_);
+  EXPECT_TRUE(IsAtTruth(0));
+  EXPECT_TRUE(IsAtTruth(begun));
+  EXPECT_LT(made_.PoseError_m(), 1e-3);
+  EXPECT_EQ(FindProblem(made_.map), "");
 }
 
 TEST_F(MapAdjustment, AloneKeyframeStaysWhereItIs) {

@@ -48,6 +48,11 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   if (reference_pose) {
     keyframe.camera_from_world = candidate.camera_from_reference * *reference_pose;
   }
+  if (candidate.begins_submap) {
+    keyframe.submap = SubmapId();
+  } else if (reference_pose) {
+    keyframe.submap = map_.FindSubmap(candidate.reference);
+  }
   const KeyframeId id = map_.AddKeyframe(std::move(keyframe));
   const std::vector<LandmarkId> seen = map_.GetKeyframe(id).landmarks;
   for (const LandmarkId landmark : seen) {
@@ -90,9 +95,12 @@ void Mapper::CreateFromDepth(KeyframeId id) {
 }
 
 void Mapper::CullYoung(KeyframeId current) {
+  const SubmapId submap = map_.FindSubmap(current);
   std::erase_if(young_, [&](const YoungLandmark& young) {
     const Landmark* landmark = map_.landmarks().Find(young.id);
     if (landmark == nullptr) return true;
+    // Keyframes of another sub-map say nothing of it: its trial goes on once the camera is back.
+    if (map_.FindSubmap(young.made_by) != submap) return false;
     const std::uint32_t age = current.value - young.made_by.value;
     const bool rarely_found =
         landmark->found_count < options_.min_found_ratio * landmark->visible_count;

@@ -229,6 +229,52 @@ TEST(Mapper, GoesOnWithAMapWhoseNewestLandmarksAreStillOnTrial) {
   EXPECT_EQ(FindProblem(*saved), "") << "the first map has not changed";
 }
 
+TEST(Mapper, ACandidateThatBeginsASubmapHasOneOfItsOwn) {
+  TrueMapping mapping(KeepKeyframes());
+  mapping.Insert(0);
+  KeyframeCandidate apart = mapping.Candidate(mapping.world().Frame(1));
+  apart.landmarks.assign(apart.landmarks.size(), LandmarkId());
+  apart.begins_submap = true;
+  const KeyframeId begun = mapping.mapper().Insert(apart, {});
+  EXPECT_EQ(mapping.map().FindSubmap(begun), SubmapId(begun.value));
+  for (const KeyframeId reference : {begun, KeyframeId(0)}) {
+    KeyframeCandidate next = apart;
+    next.begins_submap = false;
+    next.reference = reference;
+    const KeyframeId id = mapping.mapper().Insert(next, {});
+    EXPECT_EQ(mapping.map().FindSubmap(id), mapping.map().FindSubmap(reference));
+  }
+}
+
+TEST(Mapper, RefinesASubmapWithoutTheOthersWhateverTheirPlaces) {
+  TrueMapping mapping;
+  for (const std::uint32_t i : {0, 1, 2}) {
+    mapping.Insert(i);
+    mapping.mapper().Refine();
+  }
+  const auto before = mapping.mapper().Snapshot();
+  // The same views once more, of a camera that is lost: in the same place by accident.
+  Association known;
+  for (const std::uint32_t i : {0, 1, 2, 3}) {
+    const MadeFrame frame = mapping.world().Frame(i);
+    KeyframeCandidate candidate = mapping.Candidate(frame);
+    candidate.landmarks = known.Names(mapping.map(), frame);
+    candidate.begins_submap = i == 0;
+    candidate.reference = i == 0 ? KeyframeId() : mapping.map().latest_keyframe();
+    candidate.camera_from_reference =
+        frame.camera_from_world *
+        mapping.world().Frame(i == 0 ? 0 : i - 1).camera_from_world.Inverse();
+    known.Learn(mapping.map().GetKeyframe(mapping.mapper().Insert(candidate, {})), frame);
+    mapping.mapper().Refine();
+    ASSERT_EQ(FindProblem(mapping.map()), "") << i;
+  }
+  EXPECT_EQ(mapping.map().FindSubmap(mapping.map().latest_keyframe()), SubmapId(3));
+  before->keyframes.ForEach([&](const Keyframe& keyframe) {
+    EXPECT_EQ(mapping.map().GetKeyframe(keyframe.id).landmarks, keyframe.landmarks)
+        << "not even landmarks on trial have gone";
+  });
+}
+
 TEST(Mapper, NothingToRefineIsNoError) {
   TrueMapping mapping;
   mapping.mapper().Refine();

@@ -43,8 +43,8 @@ TEST(TensorflowOutputs, SharesOfTheInputBecomePixels) {
 }
 
 TEST(TensorflowOutputs, MaskIsThatOfTheRowAndItsClass) {
-  const auto detections = ReadTensorflowDetections(
-      MakeTensorflow({{0, 0, 0.9F, 0, 0, 1, 1}, {0, 2, 0.5F, 0, 0, 1, 1}}), {80, 40});
+  const auto outputs = MakeTensorflow({{0, 0, 0.9F, 0, 0, 1, 1}, {0, 2, 0.5F, 0, 0, 1, 1}});
+  const auto detections = ReadTensorflowDetections(outputs, {80, 40});  // headers onto `outputs`
   ASSERT_THAT(detections, SizeIs(2));
   EXPECT_EQ(detections[0].mask.size(), cv::Size(3, 2));
   EXPECT_FLOAT_EQ(detections[0].mask.at<float>(1, 2), 0);

@@ -1,5 +1,6 @@
 #include "ofm/pipeline/back_end.h"
 
+#include "ofm/map/submap.h"
 #include "ofm/perception/label_image.h"
 
 namespace ofm {
@@ -94,8 +95,11 @@ void BackEnd::Apply(const LoopClosure& closure, const MapSnapshot& map) {
   record.place_stamp_ns = map.keyframes.Find(closure.loop.place)->stamp_ns;
   record.place_from_keyframe = closure.loop.place_from_keyframe;
   record.matches = closure.loop.matches.size();
-  record.drift_m = drift.translation().norm();
-  record.drift_rad = drift.RotationAngle();
+  record.join = closure.correction.join;
+  if (!record.join) {
+    record.drift_m = drift.translation().norm();
+    record.drift_rad = drift.RotationAngle();
+  }
   record.landmarks_fused = slam_.mapper().Apply(closure.correction).landmarks_fused;
   loops_.push_back(record);
 }
@@ -114,6 +118,8 @@ void BackEnd::TakeAdjustment(std::optional<FinishedAdjustment> finished) {
 
 void BackEnd::Finish(RunOutcome& outcome) {
   outcome.map = slam_.mapper().Snapshot();
+  outcome.submap =
+      slam_.loaded_submap().valid() ? slam_.loaded_submap() : LargestSubmap(*outcome.map);
   outcome.loops = loops_;
   outcome.loop_counts = slam_.loop_closer().counts();
   outcome.map_is_whole = is_whole_;
@@ -129,8 +135,9 @@ void BackEnd::Finish(RunOutcome& outcome) {
     slam_.mapper().AdjustAll();
     outcome.map = slam_.mapper().Snapshot();
   }
-  const std::map<KeyframeId, RigidTransform> poses = KeyframePoses(*outcome.map);
-  if (slam_.options().build_semantic_map && !slam_.options().localize_only) {
+  if (slam_.options().localize_only) return;
+  const std::map<KeyframeId, RigidTransform> poses = KeyframePoses(*outcome.map, outcome.submap);
+  if (slam_.options().build_semantic_map) {
     ScopedStageTimer timer(times_, "semantic_map");
     outcome.semantic_map = slam_.semantic_mapper().Build(poses);
   }
@@ -141,12 +148,13 @@ void BackEnd::Finish(RunOutcome& outcome) {
   }
 }
 
-/// world_from_camera of this run's keyframes.
-std::map<KeyframeId, RigidTransform> BackEnd::KeyframePoses(const MapSnapshot& map) const {
+/// Those of this run whose place in the sub-map's world is known: world_from_camera.
+std::map<KeyframeId, RigidTransform> BackEnd::KeyframePoses(const MapSnapshot& map,
+                                                            SubmapId submap) const {
   std::map<KeyframeId, RigidTransform> poses;
   for (const auto& [frame, keyframe] : keyframe_of_frame_) {
     const auto pose = map.FindKeyframePose(keyframe);
-    if (pose) poses[keyframe] = pose->Inverse();
+    if (pose && map.FindSubmap(keyframe) == submap) poses[keyframe] = pose->Inverse();
   }
   return poses;
 }

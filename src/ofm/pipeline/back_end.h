@@ -56,7 +56,7 @@ class BackEnd {
   std::shared_ptr<const MapSnapshot> CloseLoops(std::shared_ptr<const MapSnapshot> map);
   void Apply(const LoopClosure& closure, const MapSnapshot& map);
   void AdjustAfterLoop();
-  std::map<KeyframeId, RigidTransform> KeyframePoses(const MapSnapshot& map) const;
+  std::map<KeyframeId, RigidTransform> KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);
 
   Slam& slam_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ofm/loop/test_ring.h"
+#include "ofm/map/submap.h"
 #include "ofm/perception/null_segmenter.h"
 #include "ofm/pipeline/back_end.h"
 
@@ -27,6 +28,11 @@ class RingRun {
   void Run(int keyframes) {
     while (next_ < keyframes) Step(next_++);
   }
+  /// The camera is lost: `views` of the round go by, and the next one begins a sub-map.
+  void Lose(int views) {
+    next_ += views;
+    is_lost_ = true;
+  }
   RunOutcome Finish() {
     RunOutcome outcome;
     back_end_.Finish(outcome);
@@ -49,7 +55,10 @@ class RingRun {
     job.candidate.stamp_ns = i;
     job.candidate.features = view.features;
     job.candidate.landmarks.resize(view.shown.size());
-    if (i > 0) {
+    job.candidate.begins_submap = is_lost_;
+    if (is_lost_) {
+      if (i > 0) job.candidate.camera_from_world = {ExpSo3({0.5, 1, 2}), {-2, 3, 1}};
+    } else {
       job.candidate.reference = map().latest_keyframe();
       job.candidate.camera_from_reference =
           world_.DriftOf(i) * world_.Truth(i) * world_.Truth(i - 1).Inverse();
@@ -58,6 +67,7 @@ class RingRun {
         if (name != name_of_.end()) job.candidate.landmarks[f] = name->second;
       }
     }
+    is_lost_ = false;
     const auto inserted = back_end_.Insert(std::move(job));
     name_of_.clear();
     const Keyframe& keyframe = *inserted->keyframes.Find(inserted->latest_keyframe);
@@ -71,10 +81,32 @@ class RingRun {
   Slam slam_;
   BackEnd back_end_;
   int next_ = 0;
+  bool is_lost_ = true;
   std::map<int, LandmarkId> name_of_;
 };
 
 class BackEndLoop : public testing::TestWithParam<LoopAdjustment> {};
+
+TEST_P(BackEndLoop, JoinsSubmapsByAPlaceOfBoth) {
+  RingRun run(GetParam());
+  run.Run(8);
+  run.Lose(4);
+  run.Run(kRound - 3);
+  EXPECT_GT(run.Error_m(run.map().latest_keyframe()), 1);
+  EXPECT_EQ(run.Finish().loop_counts.joined, 0U);
+  run.Run(kRound + 6);
+  const RunOutcome outcome = run.Finish();
+  EXPECT_EQ(outcome.loop_counts.joined, 1U);
+  EXPECT_EQ(outcome.loop_counts.closed, 0U);
+  ASSERT_EQ(outcome.loops.size(), 1U);
+  ASSERT_TRUE(outcome.loops.front().join);
+  EXPECT_EQ(outcome.loops.front().join->into, SubmapId(0));
+  EXPECT_EQ(outcome.loops.front().drift_m, 0);
+  EXPECT_GE(outcome.loops.front().landmarks_fused, 20);
+  EXPECT_LT(run.Error_m(outcome.map->latest_keyframe), 0.02);
+  EXPECT_EQ(FindSubmaps(*outcome.map).size(), 1U);
+  EXPECT_EQ(test::FindProblem(run.map()), "");
+}
 
 TEST_P(BackEndLoop, ClosesTheRoundAndTellsOfIt) {
   RingRun run(GetParam());

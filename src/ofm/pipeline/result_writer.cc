@@ -1,6 +1,7 @@
 #include "ofm/pipeline/result_writer.h"
 
 #include <ceres/version.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,7 @@ Json CountsJson(const RunCounts& counts) {
           {"frames_dropped", counts.frames_dropped},
           {"frames_reckoned", counts.frames_reckoned},
           {"losses", counts.losses},
+          {"submaps_begun", counts.submaps_begun},
           {"keyframes_made", counts.keyframes_made},
           {"keyframes", counts.keyframes},
           {"landmarks", counts.landmarks},
@@ -61,15 +63,55 @@ Json LoopsJson(const RunOutcome& outcome) {
                {"rejected_few_inliers", counts.few_inliers},
                {"list", Json::array()}};
   for (const LoopRecord& loop : outcome.loops) {
-    json["list"].push_back({{"stamp", FormatSeconds(loop.keyframe_stamp_ns)},
-                            {"place_stamp", FormatSeconds(loop.place_stamp_ns)},
-                            {"place_from_keyframe", PoseJson(loop.place_from_keyframe)},
-                            {"matches", loop.matches},
-                            {"drift_m", loop.drift_m},
-                            {"drift_deg", loop.drift_rad * 180 / M_PI},
-                            {"landmarks_fused", loop.landmarks_fused}});
+    Json entry = {{"stamp", FormatSeconds(loop.keyframe_stamp_ns)},
+                  {"place_stamp", FormatSeconds(loop.place_stamp_ns)},
+                  {"place_from_keyframe", PoseJson(loop.place_from_keyframe)},
+                  {"matches", loop.matches},
+                  {"landmarks_fused", loop.landmarks_fused}};
+    if (loop.join) {
+      entry["joined_submap"] = loop.join->from.value;
+      entry["into_submap"] = loop.join->into.value;
+    } else {
+      entry["drift_m"] = loop.drift_m;
+      entry["drift_deg"] = loop.drift_rad * 180 / M_PI;
+    }
+    json["list"].push_back(std::move(entry));
   }
   return json;
+}
+
+std::string SubmapFileName(SubmapId id) {
+  return fmt::format("trajectory_submap_{}.txt", id.value);
+}
+
+Json SubmapsJson(const RunOutcome& outcome) {
+  Json json = {{"world", outcome.submap.value},
+               {"begun", outcome.counts.submaps_begun},
+               {"joined", outcome.loop_counts.joined},
+               {"unjoined", Json::array()}};
+  for (const UnjoinedSubmap& submap : outcome.unjoined) {
+    Json entry = {{"id", submap.id.value},
+                  {"keyframes", submap.keyframes},
+                  {"frames", submap.trajectory.size()}};
+    if (!submap.trajectory.empty()) entry["trajectory"] = SubmapFileName(submap.id);
+    json["unjoined"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+/// Trajectories of sub-maps that were not joined, and of no earlier run.
+void WriteUnjoined(const std::filesystem::path& folder, const RunOutcome& outcome) {
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with("trajectory_submap_")) {
+      old.push_back(entry.path());
+    }
+  }
+  for (const std::filesystem::path& file : old) std::filesystem::remove(file);
+  for (const UnjoinedSubmap& submap : outcome.unjoined) {
+    if (submap.trajectory.empty()) continue;
+    SaveTrajectory(folder / SubmapFileName(submap.id), submap.trajectory);
+  }
 }
 
 Json StagesJson(const StageTimes& times) {
@@ -99,6 +141,7 @@ void WriteMap(const std::filesystem::path& folder, const SemanticMap& map,
   WriteFileAtomically(folder / "map_labels.csv", [&](std::ostream& stream) {
     WriteVoxelLabels(stream, map.octree, class_names);
   });
+  if (map.navigation_grid) WriteNavigationGrid(folder, *map.navigation_grid);
 }
 
 Json CullingToJson(const CullingCounts& counts) {
@@ -141,6 +184,7 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   json["error"] = outcome.error.empty() ? Json(nullptr) : Json(outcome.error);
   json["counts"] = CountsJson(outcome.counts);
   json["loops"] = LoopsJson(outcome);
+  json["submaps"] = SubmapsJson(outcome);
   if (description.culling) json["culling"] = CullingToJson(*description.culling);
   if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
   if (description.live_evaluation) {
@@ -151,7 +195,8 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   }
   if (outcome.semantic_map) {
     json["map"] = {{"cloud_points", outcome.semantic_map->cloud_in_world.size()},
-                   {"resolution_m", options.dense.resolution_m}};
+                   {"resolution_m", options.dense.resolution_m},
+                   {"floor_found", outcome.semantic_map->navigation_grid.has_value()}};
   }
   if (outcome.objects) {
     json["objects"] = {{"objects", outcome.objects->objects.size()},
@@ -169,6 +214,7 @@ void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome
   SaveTrajectory(folder / "trajectory.txt", outcome.trajectory);
   SaveTrajectory(folder / "trajectory_live.txt", outcome.live_trajectory);
   SaveTrajectory(folder / "keyframes.txt", outcome.keyframe_trajectory);
+  WriteUnjoined(folder, outcome);
   SlamOptions printed = options;
   WriteFileAtomically(folder / "config.yaml", PrintOptionsYaml(OptionFields(printed)));
   PinholeCamera camera = description.camera;

@@ -24,8 +24,8 @@ using testing::HasSubstr;
 
 constexpr std::array kFiles = {
     "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",     "map.ot",
-    "map.bt",         "map_labels.csv",      "config.yaml",   "camera.yaml", "summary.json",
-    "objects.db",     "objects.json"};
+    "map.bt",         "map_labels.csv",      "map.pgm",       "map.yaml",    "config.yaml",
+    "camera.yaml",    "summary.json",        "objects.db",    "objects.json"};
 
 /// What a real run leaves.
 RunOutcome RunOnce(const Recording& recording) {
@@ -126,6 +126,43 @@ TEST(WriteResults, NamesAFileThatCannotBeWritten) {
   EXPECT_THAT(ErrorOf([&] { WriteResults(folder.path(), {}, {}, Describe(recording)); }),
               HasSubstr("keyframes.txt"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "trajectory.txt")) << "those before it";
+}
+
+TEST(WriteResults, SubmapsThatWereNotJoinedHaveFilesOfTheirOwn) {
+  const Recording recording(2);
+  const TestFolder folder;
+  folder.Write("trajectory_submap_3.txt", "of an earlier run");
+  RunOutcome outcome;
+  outcome.submap = SubmapId(4);
+  outcome.counts.submaps_begun = 2;
+  outcome.loop_counts.joined = 1;
+  outcome.trajectory = recording.sequence.GroundTruth();
+  outcome.unjoined = {{SubmapId(0), 5, {outcome.trajectory.front()}}, {SubmapId(9), 1, {}}};
+  WriteResults(folder.path(), outcome, {}, Describe(recording));
+  EXPECT_EQ(LoadTrajectory(folder.path() / "trajectory_submap_0.txt").size(), 1U);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "trajectory_submap_9.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "trajectory_submap_3.txt"));
+  const json submaps = json::parse(ReadFile(folder.path() / "summary.json"))["submaps"];
+  EXPECT_EQ(submaps["world"], 4);
+  EXPECT_EQ(submaps["begun"], 2);
+  EXPECT_EQ(submaps["joined"], 1);
+  ASSERT_EQ(submaps["unjoined"].size(), 2U);
+  EXPECT_EQ(submaps["unjoined"][0]["keyframes"], 5);
+  EXPECT_EQ(submaps["unjoined"][0]["trajectory"], "trajectory_submap_0.txt");
+  EXPECT_EQ(submaps["unjoined"][1]["frames"], 0);
+  EXPECT_FALSE(submaps["unjoined"][1].contains("trajectory"));
+}
+
+TEST(SummaryJson, TellsWhichLoopsJoinedSubmaps) {
+  RunOutcome outcome;
+  outcome.loops.resize(2);
+  outcome.loops[1].join = {SubmapId(7), SubmapId(2)};
+  const json list = json::parse(SummaryJson(outcome, {}, {}))["loops"]["list"];
+  EXPECT_TRUE(list[0].contains("drift_m"));
+  EXPECT_FALSE(list[0].contains("joined_submap"));
+  EXPECT_FALSE(list[1].contains("drift_m"));
+  EXPECT_EQ(list[1]["joined_submap"], 7);
+  EXPECT_EQ(list[1]["into_submap"], 2);
 }
 
 TEST(SummaryJson, HasCountsErrorsTimesVersionsAndSeed) {

@@ -1,7 +1,7 @@
 #include "ofm/pipeline/slam.h"
 
 #include "ofm/base/error.h"
-#include "ofm/features/default_vocabulary.h"
+#include "ofm/map/submap.h"
 
 namespace ofm {
 namespace {
@@ -9,6 +9,13 @@ namespace {
 MeasurementModel MakeModel(const PinholeCamera& camera, const SlamOptions& options) {
   return {camera, OctaveScales(options.features.levels, options.features.scale_factor),
           options.measurement};
+}
+
+/// Without mapping there is nowhere to begin a sub-map.
+TrackingOptions OptionsOfTracking(const SlamOptions& options) {
+  TrackingOptions tracking = options.tracking;
+  if (options.localize_only) tracking.submap.enabled = false;
+  return tracking;
 }
 
 std::shared_ptr<const MapSnapshot> RequireMap(std::shared_ptr<const MapSnapshot> map,
@@ -26,9 +33,11 @@ Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
       options_(options),
       model_(MakeModel(camera, options)),
       front_end_(camera, options, std::move(segmenter)),
-      tracker_(model_, options.tracking, options.seed),
+      tracker_(model_, OptionsOfTracking(options), options.seed),
       mapper_(model_, options.mapping, *RequireMap(std::move(map), options)),
-      loop_closer_(model_, options.loop, DefaultVocabulary(), options.seed),
+      loaded_submap_(mapper_.map().keyframes().size() > 0 ? LargestSubmap(*mapper_.Snapshot())
+                                                          : SubmapId()),
+      loop_closer_(model_, options.loop, options.seed, loaded_submap_),
       semantic_mapper_(camera, options.dense),
       object_mapper_(camera, options.objects,
                      ClassPolicies(options.dynamics, front_end_.class_names())) {}

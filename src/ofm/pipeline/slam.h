@@ -33,6 +33,8 @@ class Slam {
     return options_.build_objects && !options_.localize_only && !front_end_.class_names().empty();
   }
   const SlamOptions& options() const { return options_; }
+  /// The largest sub-map of the map that was given, whose world stays; invalid where there is none.
+  SubmapId loaded_submap() const { return loaded_submap_; }
   const PinholeCamera& camera() const { return camera_; }
   const MeasurementModel& model() const { return model_; }
 
@@ -43,6 +45,7 @@ class Slam {
   FrontEnd front_end_;
   Tracker tracker_;
   Mapper mapper_;
+  SubmapId loaded_submap_;
   LoopCloser loop_closer_;
   SemanticMapper semantic_mapper_;
   ObjectMapper object_mapper_;

@@ -57,7 +57,7 @@ class StoredMapRun : public testing::Test {
   /// In the map's world: aligned by its keyframes.
   static double Ate_m(const Trajectory& estimate) {
     const Trajectory truth = recording_->sequence.GroundTruth();
-    const AteResult of_map = ComputeAte(KeyframeTrajectory(*map_), truth);
+    const AteResult of_map = ComputeAte(KeyframeTrajectory(*map_, SubmapId(0)), truth);
     return ComputeAte(estimate, truth, kMaxStampDifference_s, of_map.truth_from_estimate)
         .translation_m.rmse;
   }

@@ -87,11 +87,15 @@ void Track(TrackingLoop& tracking, Exchange& exchange) {
     if (!map) return;
     std::optional<KeyframeJob> job = tracking.Process(*prepared, std::move(map), waiting);
     if (!job) continue;
-    const bool first = !job->candidate.reference.valid();
+    const bool begins_submap = job->candidate.begins_submap;
+    const FrameId frame_id = job->candidate.frame_id;
     exchange.jobs.Push(std::move(*job));
-    // Without a map there is nothing to track against: wait for the first one.
-    if (!first) continue;
-    exchange.map.WaitUntil([](const auto& value) { return !value || value->keyframe_count > 0; });
+    // Before a sub-map is there, there is nothing to track against.
+    if (!begins_submap) continue;
+    exchange.map.WaitUntil([&](const auto& value) {
+      const Keyframe* latest = value ? value->keyframes.Find(value->latest_keyframe) : nullptr;
+      return !value || (latest != nullptr && latest->frame_id == frame_id);
+    });
   }
 }
 

@@ -1,6 +1,17 @@
 #include "ofm/pipeline/tracking_loop.h"
 
+#include "ofm/map/submap.h"
+
 namespace ofm {
+namespace {
+
+/// The sub-map of a pose; one that begins there has no number yet, but for the first.
+SubmapId SubmapOf(const TrackingResult& result, const MapSnapshot* map) {
+  if (map == nullptr || map->keyframe_count == 0) return SubmapId(0);
+  return map->FindSubmap(result.reference);
+}
+
+}  // namespace
 
 std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
                                                  std::shared_ptr<const MapSnapshot> map,
@@ -22,7 +33,10 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
     ScopedStageTimer timer(times_, "tracking");
     result = slam_.tracker().Process(input);
   }
-  log_.Add(input.frame_id, input.stamp_ns, result);
+  const SubmapId submap = SubmapOf(result, input.map.get());
+  log_.Add(input.frame_id, input.stamp_ns, result, submap);
+  const bool begins = result.status == TrackingStatus::kInitialized;
+  if (begins && !submap.valid()) ++submaps_begun_;
   const bool lost = result.status == TrackingStatus::kLost;
   if (lost && !lost_) ++losses_;
   lost_ = lost;
@@ -56,10 +70,15 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
   for (const auto& [frame, keyframe] : back_end.keyframe_of_frame()) {
     log_.SetKeyframe(frame, keyframe);
   }
-  outcome.trajectory = log_.Optimized(*outcome.map);
-  outcome.live_trajectory = log_.Live();
+  outcome.trajectory = log_.Optimized(*outcome.map, outcome.submap);
+  outcome.live_trajectory = log_.Live(outcome.submap);
   if (outcome.objects) outcome.objects->tracks = object_tracks_.Build(outcome.trajectory);
-  outcome.keyframe_trajectory = KeyframeTrajectory(*outcome.map);
+  outcome.keyframe_trajectory = KeyframeTrajectory(*outcome.map, outcome.submap);
+  for (const SubmapSize& submap : FindSubmaps(*outcome.map)) {
+    if (submap.id == outcome.submap) continue;
+    outcome.unjoined.push_back(
+        {submap.id, submap.keyframes, log_.Optimized(*outcome.map, submap.id)});
+  }
   outcome.class_names = slam_.front_end().class_names();
   outcome.times.Merge(times_);
   outcome.times.Merge(back_end.times());
@@ -70,6 +89,7 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
   outcome.counts.keyframes = outcome.map->keyframe_count;
   outcome.counts.landmarks = outcome.map->landmark_count;
   outcome.counts.losses = losses_;
+  outcome.counts.submaps_begun = submaps_begun_;
   if (log_.frames() > 0) outcome.counts.mean_masked_share = masked_sum_ / log_.frames();
 }
 

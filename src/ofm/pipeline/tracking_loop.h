@@ -32,7 +32,7 @@ class TrackingLoop {
   TrackLog object_tracks_;
   StageTimes times_;
   std::vector<Sighting> sightings_;  // since the last keyframe
-  std::size_t keyframes_made_ = 0, losses_ = 0;
+  std::size_t keyframes_made_ = 0, losses_ = 0, submaps_begun_ = 0;
   bool lost_ = false;
   double masked_sum_ = 0;
 };

@@ -3,6 +3,16 @@
 #include <algorithm>
 
 namespace ofm {
+namespace {
+
+/// Observers that a landmark needs: two, once there are so many keyframes that can have seen it.
+int MinObservations(const MapSnapshot& map, SubmapId submap) {
+  int keyframes = 0;
+  map.keyframes.ForEach([&](const Keyframe& keyframe) { keyframes += keyframe.submap == submap; });
+  return keyframes <= 2 ? 1 : 2;
+}
+
+}  // namespace
 
 int CountWellObserved(const MapSnapshot& map, const Keyframe& keyframe, int min_observations) {
   int count = 0;
@@ -29,8 +39,8 @@ KeyframeEvidence GatherKeyframeEvidence(const MeasurementModel& model, const Tra
   }
   const Keyframe* reference = input.map->keyframes.Find(result.reference);
   if (reference != nullptr) {
-    const int min_observations = input.map->keyframe_count <= 2 ? 1 : 2;
-    evidence.reference_landmarks = CountWellObserved(*input.map, *reference, min_observations);
+    evidence.reference_landmarks =
+        CountWellObserved(*input.map, *reference, MinObservations(*input.map, reference->submap));
   }
   return evidence;
 }

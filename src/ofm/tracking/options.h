@@ -63,6 +63,19 @@ struct DeadReckoningOptions {
   }
 };
 
+/// When a lost camera begins a new sub-map.
+struct SubmapOptions {
+  bool enabled = true;
+  double begin_after_s = 0.3;  ///< since the first frame of a loss that shows enough to begin one
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("enabled", self.enabled, "begin a new sub-map where the camera stays lost");
+    visit("begin_after_s", self.begin_after_s,
+          "since the first lost frame that shows enough to begin a map [s]", Range{0, 3600});
+  }
+};
+
 struct TrackingOptions {
   int min_start_features = 300;  ///< with depth, to begin a map
   double search_radius_px = 15;  ///< frame to frame, at octave 0
@@ -79,6 +92,7 @@ struct TrackingOptions {
   double map_radius_px = 3;  ///< multiplies the local map's search radius of 2.5 or 4
   DeadReckoningOptions dead_reckoning;
   RelocalizationOptions relocalization;
+  SubmapOptions submap;
   KeyframeOptions keyframe;
   PoseOptimizerOptions pose;
   PnpOptions pnp;
@@ -109,6 +123,7 @@ struct TrackingOptions {
           Range{0.1, 50});
     visit("dead_reckoning", self.dead_reckoning);
     visit("relocalization", self.relocalization);
+    visit("submap", self.submap);
     visit("keyframe", self.keyframe);
     visit("pose", self.pose);
     visit("pnp", self.pnp);

@@ -24,17 +24,14 @@ class TrackingRun {
     if (change) change(input);
     TrackingResult result = tracker_.Process(input);
     if (result.status == TrackingStatus::kInitialized) {
-      first_from_world_ = frame.camera_from_world;
+      first_from_world_ = result.camera_from_world.Inverse() * frame.camera_from_world;
     }
-    if (result.keyframe) {
-      AddWithDepth(map_, world_.model(), frame, result.keyframe->camera_from_world,
-                   result.keyframe->landmarks);
-    }
+    if (result.keyframe) Add(*result.keyframe);
     return result;
   }
   TrackingResult Step(std::uint32_t frame_id) { return Step(world_.Frame(frame_id)); }
 
-  /// camera_from_world in the map's world, that of the first camera.
+  /// camera_from_world in the map's world, of which the newest sub-map's first camera tells.
   RigidTransform Truth(const MadeFrame& frame) const {
     return frame.camera_from_world * first_from_world_.Inverse();
   }
@@ -42,6 +39,15 @@ class TrackingRun {
   Map& map() { return map_; }
 
  private:
+  void Add(const KeyframeCandidate& candidate) {
+    Keyframe keyframe = MakeTestKeyframe(candidate.features, candidate.camera_from_world);
+    keyframe.frame_id = candidate.frame_id;
+    keyframe.stamp_ns = candidate.stamp_ns;
+    keyframe.landmarks = candidate.landmarks;
+    keyframe.submap = candidate.begins_submap ? SubmapId() : map_.FindSubmap(candidate.reference);
+    AddWithDepth(map_, world_.model(), std::move(keyframe));
+  }
+
   FeatureWorld world_;
   Map map_{TestScales()};
   Tracker tracker_;

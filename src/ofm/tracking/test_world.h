@@ -119,8 +119,20 @@ inline MadeFrame MakeBlindFrame(const MadeFrame& like) {
   return frame;
 }
 
-/// Adds a frame to `map` at `camera_from_world`, with a landmark for every feature that has depth
-/// and names none.
+/// Adds a keyframe to `map`, with a landmark for every feature that has depth and names none.
+inline KeyframeId AddWithDepth(Map& map, const MeasurementModel& model, Keyframe keyframe) {
+  const auto features = keyframe.features;
+  const RigidTransform world_from_camera = keyframe.camera_from_world.Inverse();
+  const KeyframeId id = map.AddKeyframe(std::move(keyframe));
+  for (std::size_t i = 0; i < features->size(); ++i) {
+    const auto point = PointInCamera(*features, static_cast<int>(i), model.camera);
+    if (!point || map.GetKeyframe(id).landmarks[i].valid()) continue;
+    map.AddLandmark(world_from_camera * *point, id, static_cast<int>(i));
+  }
+  return id;
+}
+
+/// The same of a frame at `camera_from_world`.
 inline KeyframeId AddWithDepth(Map& map, const MeasurementModel& model, const MadeFrame& frame,
                                const RigidTransform& camera_from_world,
                                const std::vector<LandmarkId>& landmarks = {}) {
@@ -128,13 +140,7 @@ inline KeyframeId AddWithDepth(Map& map, const MeasurementModel& model, const Ma
   keyframe.frame_id = frame.id;
   keyframe.stamp_ns = frame.stamp_ns;
   if (!landmarks.empty()) keyframe.landmarks = landmarks;
-  const KeyframeId id = map.AddKeyframe(std::move(keyframe));
-  for (std::size_t i = 0; i < frame.features->size(); ++i) {
-    const auto point = PointInCamera(*frame.features, static_cast<int>(i), model.camera);
-    if (!point || map.GetKeyframe(id).landmarks[i].valid()) continue;
-    map.AddLandmark(camera_from_world.Inverse() * *point, id, static_cast<int>(i));
-  }
-  return id;
+  return AddWithDepth(map, model, std::move(keyframe));
 }
 
 inline double DistanceOfCentres_m(const RigidTransform& a, const RigidTransform& b) {

@@ -7,18 +7,34 @@
 #include "ofm/tracking/relocalizer.h"
 
 namespace ofm {
+namespace {
+
+int CountWithDepth(const FrameFeatures& features) {
+  return static_cast<int>(
+      std::ranges::count_if(features.depth_m, [](float depth) { return depth > 0; }));
+}
+
+}  // namespace
 
 Tracker::Tracker(const MeasurementModel& model, const TrackingOptions& options, std::uint64_t seed)
     : model_(model), options_(options), search_(model, options, seed) {}
 
 TrackingResult Tracker::Process(const TrackingInput& input) {
   if (input.map == nullptr || input.map->keyframe_count == 0) {
-    TrackingResult result = Initialize(input);
+    TrackingResult result = Initialize(input, {});
     Remember(input, result);
     return result;
   }
   SyncWithMap(*input.map);
   TrackingResult result = TrackOrRelocalize(AlignDepth(input, velocity_));
+  if (!HasPose(result.status) && IsLostForGood(input)) {
+    // Where it lies is not known; about the last known place is as good as anywhere.
+    const auto last_known = input.map->FindKeyframePose(reference_);
+    result =
+        Initialize(input, last_known ? camera_from_reference_ * *last_known : RigidTransform());
+    Remember(input, result);
+    return result;
+  }
   // Once more with the motion that was found: the predicted one is not good enough for landmarks.
   const TrackingInput aligned = AlignDepth(input, VelocityTo(input, result));
   const bool is_needed =
@@ -31,6 +47,7 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
                                         result.camera_from_world,
                                         result.reference,
                                         result.camera_from_reference,
+                                        false,
                                         aligned.features,
                                         result.landmarks};
   }
@@ -51,10 +68,13 @@ TrackingInput Tracker::AlignDepth(const TrackingInput& input,
   return aligned;
 }
 
-/// Twist per second from the last frame to this one; empty where either has no pose.
+/// Twist per second from the last frame to this one; empty where either has no pose, or their poses
+/// are in different worlds.
 std::optional<Vector6d> Tracker::VelocityTo(const TrackingInput& input,
                                             const TrackingResult& result) const {
   if (!HasPose(result.status) || !last_ || input.stamp_ns <= last_->stamp_ns) return {};
+  if (result.status == TrackingStatus::kInitialized) return {};
+  if (input.map->FindSubmap(result.reference) != input.map->FindSubmap(reference_)) return {};
   const double elapsed_s = NanosecondsToSeconds(input.stamp_ns - last_->stamp_ns);
   return LogSe3(result.camera_from_world * last_->camera_from_world.Inverse()) / elapsed_s;
 }
@@ -73,9 +93,11 @@ TrackingResult Tracker::TrackOrRelocalize(const TrackingInput& input) const {
   if (last_) {
     consider(search_.FromLastFrame(input, *last_, PredictPose(input)));
     // Where the last frame has no landmarks, by the place alone; the newest keyframe may not share
-    // any with the reference.
+    // any with the reference. Of another sub-map it says nothing of the place.
+    const SubmapId submap = input.map->FindSubmap(reference_);
     for (const KeyframeId near : {reference_, input.map->latest_keyframe}) {
-      if (!HasPose(best.status)) consider(CameraEstimate{PredictPose(input), {}, 0, near});
+      if (HasPose(best.status) || input.map->FindSubmap(near) != submap) continue;
+      consider(CameraEstimate{PredictPose(input), {}, 0, near});
     }
     const Keyframe* reference = input.map->keyframes.Find(reference_);
     if (reference != nullptr && best.inliers < options_.doubtful_share * last_inliers_) {
@@ -111,21 +133,30 @@ bool Tracker::ContinuesMap(const TrackingInput& input, const TrackingResult& res
   const DeadReckoningOptions& options = options_.dead_reckoning;
   if (result.status != TrackingStatus::kReckoned || !input.motion_hint) return false;
   if (input.stamp_ns - fix_stamp_ns_ < options.keyframe_s * 1e9) return false;
-  const auto has_depth = [](float depth) { return depth > 0; };
-  return std::ranges::count_if(input.features->depth_m, has_depth) >= options.min_features &&
+  return CountWithDepth(*input.features) >= options.min_features && input.keyframes_waiting == 0;
+}
+
+/// Whether the frame, which has no pose, should begin a sub-map: it shows enough for that, and so
+/// did one a while before it that was not recognised either.
+bool Tracker::IsLostForGood(const TrackingInput& input) {
+  if (!options_.submap.enabled) return false;
+  if (CountWithDepth(*input.features) < options_.min_start_features) return false;
+  if (!lost_stamp_ns_) lost_stamp_ns_ = input.stamp_ns;
+  return input.stamp_ns - *lost_stamp_ns_ >= options_.submap.begin_after_s * 1e9 &&
          input.keyframes_waiting == 0;
 }
 
-TrackingResult Tracker::Initialize(const TrackingInput& input) const {
+/// The frame as the first one of a map or sub-map.
+TrackingResult Tracker::Initialize(const TrackingInput& input,
+                                   const RigidTransform& camera_from_world) const {
   TrackingResult result;
   result.landmarks.resize(input.features->size());
-  const auto has_depth = [](float depth) { return depth > 0; };
-  const auto& depth = input.features->depth_m;
-  if (std::count_if(depth.begin(), depth.end(), has_depth) < options_.min_start_features) {
-    return result;
-  }
+  if (CountWithDepth(*input.features) < options_.min_start_features) return result;
   result.status = TrackingStatus::kInitialized;
+  result.camera_from_world = camera_from_world;
   KeyframeCandidate candidate;
+  candidate.begins_submap = true;
+  candidate.camera_from_world = camera_from_world;
   candidate.frame_id = input.frame_id;
   candidate.stamp_ns = input.stamp_ns;
   candidate.features = input.features;
@@ -164,6 +195,7 @@ void Tracker::Remember(const TrackingInput& input, const TrackingResult& result)
     velocity_.reset();
     return;
   }
+  lost_stamp_ns_.reset();
   velocity_ = VelocityTo(input, result);
   last_ = TrackedFrame{input.frame_id, input.stamp_ns, input.features, result.landmarks,
                        result.camera_from_world};

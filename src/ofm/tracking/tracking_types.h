@@ -13,7 +13,7 @@ namespace ofm {
 
 enum class TrackingStatus {
   kWaiting,      ///< no map yet, and the frame has too few features with depth to begin one
-  kInitialized,  ///< this frame begins the map
+  kInitialized,  ///< this frame begins the map, or a sub-map
   kTracked,      ///< the pose is known
   kRelocalized,  ///< the pose is known again, after a loss
   kReckoned,     ///< no landmark was found; the pose follows from the camera's motion alone
@@ -50,8 +50,9 @@ struct KeyframeCandidate {
   FrameId frame_id;
   std::int64_t stamp_ns = 0;
   RigidTransform camera_from_world;
-  KeyframeId reference;  ///< against which the pose is known; invalid for the first
+  KeyframeId reference;  ///< against which the pose is known; invalid where there is none
   RigidTransform camera_from_reference;
+  bool begins_submap = false;  ///< its place in the map is not known: the pose is a guess
   std::shared_ptr<const FrameFeatures> features;
   std::vector<LandmarkId> landmarks;  ///< by feature
 };

@@ -1,0 +1,158 @@
+#include "inpainting_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+
+#include "ofm/base/error.h"
+#include "ofm/base/options.h"
+#include "ofm/base/time.h"
+#include "ofm/dense/background_inpainter.h"
+#include "ofm/io/atomic_file.h"
+#include "ofm/io/image_file.h"
+#include "share_bar.h"
+
+namespace ofm {
+namespace {
+
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder, "cannot be made (" + error.message() + ")");
+}
+
+void WritePng(const std::filesystem::path& path, const cv::Mat& image) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// A tracked frame of the sequence.
+struct TrackedFrame {
+  std::size_t index;  // in the sequence
+  StampedPose pose;
+};
+
+/// The poses whose time is that of a frame of the sequence.
+std::vector<TrackedFrame> FindFrames(const RgbdSequence& sequence, const Trajectory& trajectory) {
+  std::map<std::int64_t, std::size_t> index_of_stamp;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    index_of_stamp[sequence.entries()[i].color.stamp_ns] = i;
+  }
+  std::vector<TrackedFrame> frames;
+  for (const StampedPose& pose : trajectory) {
+    const auto found = index_of_stamp.find(pose.stamp_ns);
+    if (found != index_of_stamp.end()) frames.push_back({found->second, pose});
+  }
+  return frames;
+}
+
+/// Frames of the sequence with their recorded masks.
+class ViewReader {
+ public:
+  ViewReader(const RgbdSequence& sequence, std::filesystem::path masks)
+      : sequence_(sequence), masks_(std::move(masks)) {}
+
+  SceneView Read(const TrackedFrame& tracked) const {
+    const RgbdFrame frame = sequence_.Load(tracked.index);
+    const std::filesystem::path mask = masks_ / (frame.name + ".png");
+    SceneView view{tracked.pose.stamp_ns, tracked.pose.world_from_camera, frame.color,
+                   frame.depth_m, LoadImage(mask)};
+    if (view.hidden.type() != CV_8UC1 || view.hidden.size() != frame.color.size()) {
+      throw Error(mask, "is no mask of the frame's size");
+    }
+    return view;
+  }
+
+ private:
+  const RgbdSequence& sequence_;
+  std::filesystem::path masks_;
+};
+
+/// The keyframes around the current frame, each read once while frames come in their order.
+class KeyframeWindow {
+ public:
+  KeyframeWindow(const ViewReader& reader, const BackgroundInpainter& inpainter,
+                 std::vector<TrackedFrame> keyframes, const InpaintingOptions& options)
+      : reader_(reader),
+        inpainter_(inpainter),
+        keyframes_(std::move(keyframes)),
+        options_(options) {}
+
+  std::vector<std::shared_ptr<const StaticView>> Around(std::int64_t stamp_ns) {
+    const auto after = std::upper_bound(
+        keyframes_.begin(), keyframes_.end(), stamp_ns,
+        [](std::int64_t stamp, const TrackedFrame& frame) { return stamp < frame.pose.stamp_ns; });
+    const auto first =
+        after - std::min<std::ptrdiff_t>(options_.keyframes_before, after - keyframes_.begin());
+    const auto end =
+        after + std::min<std::ptrdiff_t>(options_.keyframes_after, keyframes_.end() - after);
+    std::map<std::size_t, std::shared_ptr<const StaticView>> still_read;
+    std::vector<std::shared_ptr<const StaticView>> views;
+    for (auto keyframe = first; keyframe != end; ++keyframe) {
+      const auto known = read_.find(keyframe->index);
+      views.push_back(known != read_.end() ? known->second : Make(*keyframe));
+      still_read[keyframe->index] = views.back();
+    }
+    read_ = std::move(still_read);
+    return views;
+  }
+
+ private:
+  std::shared_ptr<const StaticView> Make(const TrackedFrame& keyframe) const {
+    return std::make_shared<StaticView>(inpainter_.MakeStaticView(reader_.Read(keyframe)));
+  }
+
+  const ViewReader& reader_;
+  const BackgroundInpainter& inpainter_;
+  std::vector<TrackedFrame> keyframes_;  // by time
+  InpaintingOptions options_;
+  std::map<std::size_t, std::shared_ptr<const StaticView>> read_;  // by index
+};
+
+}  // namespace
+
+HiddenPixelRecorder::HiddenPixelRecorder(const std::filesystem::path& folder)
+    : masks_(folder / "mask") {
+  MakeFolder(masks_);
+}
+
+void HiddenPixelRecorder::OnFrame(const FrameReport& report) {
+  const DynamicMask& dynamic = report.prepared.dynamic;
+  const RgbdFrame& frame = report.prepared.frame;
+  const cv::Mat& hidden = dynamic.unmapped.empty() ? dynamic.mask : dynamic.unmapped;
+  WritePng(masks_ / (frame.name + ".png"),
+           hidden.empty() ? cv::Mat::zeros(frame.color.size(), CV_8UC1) : hidden);
+}
+
+void WriteInpaintedFrames(const std::filesystem::path& folder, const RgbdSequence& sequence,
+                          const RunOutcome& outcome, const DenseOptions& options) {
+  MakeFolder(folder / "rgb");
+  MakeFolder(folder / "depth");
+  PinholeCamera camera = sequence.camera();
+  const BackgroundInpainter inpainter(camera, options.cloud, options.inpainting);
+  const ViewReader reader(sequence, folder / "mask");
+  KeyframeWindow window(reader, inpainter, FindFrames(sequence, outcome.keyframe_trajectory),
+                        options.inpainting);
+  const std::vector<TrackedFrame> frames = FindFrames(sequence, outcome.trajectory);
+  std::string associations = "# time, colour, time, depth\n";
+  ShareBar bar("in-painting");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const SceneView view = reader.Read(frames[i]);
+    const InpaintedFrame filled = inpainter.Inpaint(view, window.Around(view.stamp_ns));
+    const std::string name =
+        sequence.entries()[frames[i].index].color.path.stem().string() + ".png";
+    cv::Mat depth;
+    filled.depth_m.convertTo(depth, CV_16UC1, camera.depth_scale);
+    WritePng(folder / "rgb" / name, filled.color);
+    WritePng(folder / "depth" / name, depth);
+    associations += fmt::format("{0} rgb/{1} {0} depth/{1}\n", FormatSeconds(view.stamp_ns), name);
+    bar.OnShare(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
+  }
+  WriteFileAtomically(folder / "associations.txt", associations);
+  WriteFileAtomically(folder / "camera.yaml", PrintOptionsYaml(OptionFields(camera)));
+}
+
+}  // namespace ofm
