@@ -1,3 +1,8 @@
+if(OFM_BUILD_TESTS)
+  add_library(ofm_one_opencv_thread OBJECT ${PROJECT_SOURCE_DIR}/tests/support/one_opencv_thread.cc)
+  target_link_libraries(ofm_one_opencv_thread PRIVATE ofm_compiler opencv_core)
+endif()
+
 # ofm_add_module(NAME [LINKS ...]) makes the library ofm::NAME of the *.cc in this directory and,
 # of its *_test.cc, the test program ofm_NAME_test. LINKS are public: modules above this one in
 # OFM_LAYERS, and third-party targets.
@@ -25,9 +30,9 @@ function(ofm_add_module name)
   set_property(GLOBAL APPEND PROPERTY OFM_MODULE_TARGETS ofm_${name})
 
   if(OFM_BUILD_TESTS AND tests)
-    add_executable(ofm_${name}_test ${tests})
+    add_executable(ofm_${name}_test ${tests} $<TARGET_OBJECTS:ofm_one_opencv_thread>)
     target_link_libraries(ofm_${name}_test PRIVATE ofm_compiler ofm::${name} ${ARG_TEST_LINKS}
-      GTest::gmock GTest::gtest_main)
+      GTest::gmock GTest::gtest_main $<LINK_ONLY:opencv_core>)
     # clang-tidy is for what is shipped: GoogleTest's macros trip dozens of its checks.
     set_target_properties(ofm_${name}_test PROPERTIES CXX_CLANG_TIDY "")
     target_compile_definitions(ofm_${name}_test PRIVATE

@@ -109,7 +109,7 @@ TEST_F(MapFiles, InfoTellsWhatIsInside) {
   const json counts = Summary("first")["counts"];
   EXPECT_THAT(
       result.out,
-      AllOf(HasSubstr("version 1"), HasSubstr("keyframes  " + counts["keyframes"].dump() + "\n"),
+      AllOf(HasSubstr("version 2"), HasSubstr("keyframes  " + counts["keyframes"].dump() + "\n"),
             HasSubstr("landmarks  " + counts["landmarks"].dump() + "\n"), HasSubstr("240 x 180 px"),
             HasSubstr("no distortion"), HasSubstr("8 levels")));
 }

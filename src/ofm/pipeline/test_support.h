@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ofm/base/error.h"
+#include "ofm/map/submap.h"
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/sim/sim_sequence.h"
@@ -130,6 +131,7 @@ class FailingBackEnd : public BackEnd {
   }
   void Finish(RunOutcome& outcome) override {
     outcome.map = slam_.mapper().Snapshot();
+    outcome.submap = LargestSubmap(*outcome.map);
     ComeTo(BackEndStep::kFinish);
     BackEnd::Finish(outcome);
   }
