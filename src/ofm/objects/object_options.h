@@ -36,7 +36,7 @@ struct ObjectJoinOptions {
   double same_class_overlap = 0.35;   ///< share of the smaller one that must be in the other
   double other_class_overlap = 0.5;   ///< share of either that must be in the other
   double max_seen_apart_share = .25;  ///< of the views, in which two objects of a class are two
-  double same_class_spreads = 2;      ///< nearer than so many spreads of the larger: one thing
+  double same_class_spreads = 1.5;    ///< nearer than so many spreads of the larger: one thing
   double other_class_spreads = 1;     ///< of different classes: of the smaller
   double part_overlap = 0.7;          ///< share of a part that is in its whole
   double part_min_size = 0.2;         ///< of the whole's voxels; what is smaller lies on it
