@@ -10,6 +10,7 @@ void AddEvaluateCommand(CLI::App& app);
 void AddEvaluateMapCommand(CLI::App& app);
 void AddEvaluateInpaintingCommand(CLI::App& app);
 void AddMapCommand(CLI::App& app);
+void AddObjectsCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);
 void AddVocabularyCommand(CLI::App& app);

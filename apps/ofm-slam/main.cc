@@ -42,6 +42,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddEvaluateMapCommand(app);
   ofm::AddEvaluateInpaintingCommand(app);
   ofm::AddMapCommand(app);
+  ofm::AddObjectsCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddModelsCommand(app);
   ofm::AddVocabularyCommand(app);

@@ -218,6 +218,10 @@ std::string FormatSummary(const RunReport& report) {
   text += fmt::format("map         {} keyframes ({} made), {} landmarks, {} cloud points\n",
                       counts.keyframes, counts.keyframes_made, counts.landmarks,
                       outcome.semantic_map ? outcome.semantic_map->cloud_in_world.size() : 0);
+  if (outcome.objects) {
+    text += fmt::format("objects     {}, and {} tracks of what may move (ofm-slam objects)\n",
+                        outcome.objects->objects.size(), outcome.objects->tracks.size());
+  }
   text += FormatLoops(outcome);
   text += FormatSubmaps(outcome);
   const RunDescription& description = report.description;

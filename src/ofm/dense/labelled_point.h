@@ -13,6 +13,12 @@ struct Rgb {
   friend constexpr bool operator==(Rgb, Rgb) = default;
 };
 
+/// The nearest colour to (r, g, b), each from 0 to 255.
+inline Rgb ToRgb(const Eigen::Vector3d& rgb) {
+  const auto channel = [&](int i) { return static_cast<std::uint8_t>(rgb[i] + .5); };
+  return {channel(0), channel(1), channel(2)};
+}
+
 /// The frame of `position` is said by whatever holds the point.
 struct LabelledPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]

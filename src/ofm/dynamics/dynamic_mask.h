@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "ofm/base/ids.h"
 #include "ofm/geometry/rigid_transform.h"
 
 namespace ofm {
@@ -23,6 +24,14 @@ struct FlowVector {
   bool is_moving = false;  ///< against the camera's motion
 };
 
+/// An instance of a class that may move, under an id that it keeps from frame to frame.
+struct FollowedInstance {
+  InstanceId id;  ///< never used twice
+  ClassId class_id;
+  float score = 0;  ///< of the last detection, less where that is longer ago
+  cv::Mat mask;     ///< CV_8UC1 of the image's size, 255 = the instance; shared, not copied
+};
+
 /// Where a frame must not be trusted, and the points that told so.
 struct DynamicMask {
   cv::Mat mask;      ///< CV_8UC1 of the image's size, 255 = dynamic
@@ -31,6 +40,7 @@ struct DynamicMask {
   cv::Mat static_probability;                   ///< CV_8UC1, 255 = surely; empty = not told
   std::vector<FlowVector> flow;                 ///< of some points
   std::optional<FrameMotion> camera_motion;     ///< where the flow tells it
+  std::vector<FollowedInstance> followed;       ///< by id; mode `full`
   double masked_share = 0;                      ///< of the image's pixels, 0 to 1
 };
 

@@ -60,7 +60,9 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
   result.mask = MaskOf(verdict, step.frame, frame, segmentation);
   result.unmapped = result.mask.clone();
   for (const InstanceTrack& track : tracks_.tracks) {
-    AddDilated(track.instance.mask, options_.dilation_px, result.unmapped);
+    const Instance& instance = track.instance;
+    result.followed.push_back({instance.id, instance.class_id, instance.score, instance.mask});
+    AddDilated(instance.mask, options_.dilation_px, result.unmapped);
   }
   result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
   if (verdict.camera_motion.is_measured) {
@@ -84,7 +86,7 @@ void FullDynamics::FollowInstances(const RgbdFrame& frame, const Segmentation& s
     mover.box = cv::boundingRect(mover.mask);
     if (!mover.box.empty()) movers.push_back(std::move(mover));
   }
-  if (frame.stamp_ns <= tracks_.stamp_ns) tracks_ = {};  // a new recording
+  if (frame.stamp_ns <= tracks_.stamp_ns) tracks_ = {0, tracks_.next_id, {}};  // a new recording
   tracks_ = TrackInstances(tracks_, {movers, frame.depth_m, frame.stamp_ns}, options_.tracker);
 }
 

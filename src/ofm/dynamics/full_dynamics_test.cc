@@ -250,5 +250,17 @@ TEST_F(FullDynamicsTest, StreamThatJumpsBackInTimeBeginsAnew) {
   EXPECT_FALSE(result.camera_motion);
 }
 
+TEST_F(FullDynamicsTest, TellsWhoIsFollowedUnderOneId) {
+  FlowingDynamics dynamics = Make();
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const DynamicMask result = dynamics.Process(frames_[i], OneInstance(FrameId(i), People(i)));
+    ASSERT_EQ(result.followed.size(), 1U) << i;
+    EXPECT_EQ(result.followed[0].id, InstanceId(0));
+    EXPECT_EQ(result.followed[0].class_id, ClassId(0));
+    EXPECT_GT(ShareSet(result.followed[0].mask, People(i) & HasDepth(i)), 0.9);
+  }
+  EXPECT_TRUE(Make().Process(frames_[0], Nobody(0)).followed.empty());
+}
+
 }  // namespace
 }  // namespace ofm

@@ -17,6 +17,16 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
   return labelled;
 }
 
+InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared) {
+  InstanceFrame frame;
+  frame.stamp_ns = prepared.frame.stamp_ns;
+  frame.color = prepared.frame.color;
+  frame.depth_m = prepared.frame.depth_m;
+  frame.dynamic_mask = prepared.dynamic.mask;
+  frame.instances = prepared.segmentation.instances;
+  return frame;
+}
+
 BackEnd::BackEnd(Slam& slam, LoopAdjustment adjustment)
     : slam_(slam),
       adjustment_(adjustment),
@@ -36,6 +46,11 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
     ScopedStageTimer timer(times_, "semantic_cloud");
     job.labelled.id = id;
     slam_.semantic_mapper().AddKeyframe(job.labelled);
+  }
+  if (!job.instances.depth_m.empty()) {
+    ScopedStageTimer timer(times_, "object_observation");
+    job.instances.id = id;
+    slam_.object_mapper().AddKeyframe(job.instances);
   }
   return slam_.mapper().Snapshot();
 }
@@ -120,19 +135,28 @@ void BackEnd::Finish(RunOutcome& outcome) {
     slam_.mapper().AdjustAll();
     outcome.map = slam_.mapper().Snapshot();
   }
-  if (!slam_.options().build_semantic_map || slam_.options().localize_only) return;
-  outcome.semantic_map = BuildSemanticMap(*outcome.map, outcome.submap);
+  if (slam_.options().localize_only) return;
+  const std::map<KeyframeId, RigidTransform> poses = KeyframePoses(*outcome.map, outcome.submap);
+  if (slam_.options().build_semantic_map) {
+    ScopedStageTimer timer(times_, "semantic_map");
+    outcome.semantic_map = slam_.semantic_mapper().Build(poses);
+  }
+  if (slam_.makes_objects()) {
+    ScopedStageTimer timer(times_, "objects");
+    outcome.objects = slam_.object_mapper().Build(poses);
+    outcome.objects->class_names = slam_.front_end().class_names();
+  }
 }
 
-/// Of the keyframes whose place in the sub-map's world is known.
-SemanticMap BackEnd::BuildSemanticMap(const MapSnapshot& map, SubmapId submap) {
-  ScopedStageTimer timer(times_, "semantic_map");
+/// Those of this run whose place in the sub-map's world is known: world_from_camera.
+std::map<KeyframeId, RigidTransform> BackEnd::KeyframePoses(const MapSnapshot& map,
+                                                            SubmapId submap) const {
   std::map<KeyframeId, RigidTransform> poses;
   for (const auto& [frame, keyframe] : keyframe_of_frame_) {
     const auto pose = map.FindKeyframePose(keyframe);
     if (pose && map.FindSubmap(keyframe) == submap) poses[keyframe] = pose->Inverse();
   }
-  return slam_.semantic_mapper().Build(poses);
+  return poses;
 }
 
 }  // namespace ofm

@@ -14,11 +14,15 @@ namespace ofm {
 struct KeyframeJob {
   KeyframeCandidate candidate;
   std::vector<Sighting> sightings;
-  LabelledFrame labelled;  ///< its id is set by the back end; no images where no map is wanted
+  LabelledFrame labelled;   ///< its id is set by the back end; no images where no map is wanted
+  InstanceFrame instances;  ///< the same, where no objects are wanted
 };
 
 /// The images and labels of a frame as the semantic map takes them.
 LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
+
+/// The images and instances of a frame as objects are made of them.
+InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared);
 
 /// When the whole map is adjusted after a loop.
 enum class LoopAdjustment {
@@ -39,8 +43,9 @@ class BackEnd {
   virtual std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
   /// Everything that may take its time, loops included; gives the refined snapshot.
   virtual std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
-  /// Final adjustment and the semantic map, from the poses that then are known. `outcome` has a map
-  /// even where this throws. A map whose last change was cut short by an error is not adjusted.
+  /// Final adjustment, the semantic map and the objects (without tracks), from the poses that then
+  /// are known. `outcome` has a map even where this throws. A map whose last change was cut short
+  /// by an error is not adjusted.
   virtual void Finish(RunOutcome& outcome);
 
   /// Keyframe made of a frame, for the trajectory; by frame id.
@@ -51,8 +56,8 @@ class BackEnd {
   std::shared_ptr<const MapSnapshot> CloseLoops(std::shared_ptr<const MapSnapshot> map);
   void Apply(const LoopClosure& closure, const MapSnapshot& map);
   void AdjustAfterLoop();
+  std::map<KeyframeId, RigidTransform> KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);
-  SemanticMap BuildSemanticMap(const MapSnapshot& map, SubmapId submap);
 
   Slam& slam_;
   LoopAdjustment adjustment_;

@@ -9,6 +9,7 @@
 #include "ofm/features/orb_extractor.h"
 #include "ofm/loop/options.h"
 #include "ofm/mapping/options.h"
+#include "ofm/objects/object_options.h"
 #include "ofm/perception/perception_options.h"
 #include "ofm/tracking/measurement.h"
 #include "ofm/tracking/options.h"
@@ -18,6 +19,7 @@ namespace ofm {
 struct SlamOptions {
   std::uint64_t seed = 0;  ///< of every random draw
   bool build_semantic_map = true;
+  bool build_objects = true;     ///< where there is a segmenter
   bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
   bool localize_only = false;    ///< no mapping: the camera is followed in a map that was loaded
   PerceptionOptions perception;
@@ -28,11 +30,14 @@ struct SlamOptions {
   MappingOptions mapping;
   LoopOptions loop;
   DenseOptions dense;
+  ObjectOptions objects;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("seed", self.seed, "of every random draw", Range{0, 1e15});
     visit("build_semantic_map", self.build_semantic_map, "make map.ply, map.ot and map.bt");
+    visit("build_objects", self.build_objects,
+          "make objects.db and objects.json, where there is a segmenter");
     visit("final_adjustment", self.final_adjustment,
           "bundle adjustment over all keyframes at the end");
     visit("localize_only", self.localize_only,
@@ -45,6 +50,7 @@ struct SlamOptions {
     visit("mapping", self.mapping);
     visit("loop", self.loop);
     visit("dense", self.dense);
+    visit("objects", self.objects);
   }
 };
 

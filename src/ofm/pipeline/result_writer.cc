@@ -13,6 +13,8 @@
 #include "ofm/dense/ply_file.h"
 #include "ofm/io/atomic_file.h"
 #include "ofm/io/trajectory_file.h"
+#include "ofm/objects/object_database.h"
+#include "ofm/objects/object_json.h"
 
 namespace ofm {
 namespace {
@@ -196,6 +198,10 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
                    {"resolution_m", options.dense.resolution_m},
                    {"floor_found", outcome.semantic_map->navigation_grid.has_value()}};
   }
+  if (outcome.objects) {
+    json["objects"] = {{"objects", outcome.objects->objects.size()},
+                       {"tracks", outcome.objects->tracks.size()}};
+  }
   json["wall_s"] = outcome.wall_s;
   json["process_cpu_s"] = outcome.process_cpu_s;
   json["peak_memory_mib"] = PeakMemoryMib();
@@ -215,6 +221,10 @@ void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome
   WriteFileAtomically(folder / "camera.yaml", PrintOptionsYaml(OptionFields(camera)));
   WriteFileAtomically(folder / "summary.json", SummaryJson(outcome, options, description));
   if (outcome.semantic_map) WriteMap(folder, *outcome.semantic_map, outcome.class_names);
+  if (outcome.objects) {
+    SaveObjects(folder / "objects.db", *outcome.objects);
+    WriteFileAtomically(folder / "objects.json", ObjectsJson(*outcome.objects));
+  }
 }
 
 }  // namespace ofm

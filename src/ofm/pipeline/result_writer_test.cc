@@ -23,9 +23,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::array kFiles = {
-    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",  "map.ot",
-    "map.bt",         "map_labels.csv",      "map.pgm",       "map.yaml", "config.yaml",
-    "camera.yaml",    "summary.json"};
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",     "map.ot",
+    "map.bt",         "map_labels.csv",      "map.pgm",       "map.yaml",    "config.yaml",
+    "camera.yaml",    "summary.json",        "objects.db",    "objects.json"};
 
 /// What a real run leaves.
 RunOutcome RunOnce(const Recording& recording) {

@@ -10,6 +10,7 @@
 #include "ofm/geometry/trajectory.h"
 #include "ofm/loop/loop_closer.h"
 #include "ofm/map/map.h"
+#include "ofm/objects/scene_object.h"
 
 namespace ofm {
 
@@ -52,6 +53,7 @@ struct RunOutcome {
   std::shared_ptr<const MapSnapshot> map;
   bool map_is_whole = true;  ///< false where an error cut a change of the map short
   std::optional<SemanticMap> semantic_map;
+  std::optional<ObjectInventory> objects;  ///< where a segmenter knows classes
   std::vector<std::string> class_names;
   StageTimes times;
   RunCounts counts;

@@ -205,5 +205,38 @@ TEST(RunSequential, KeepsTheTrajectoryWhereTheMapCannotBeFinished) {
   EXPECT_EQ(outcome.trajectory.size(), 4U);
 }
 
+TEST(RunSequential, FollowsWhoWalksAsATrackAndMakesNoObjectOfHim) {
+  const test::Recording recording(16);
+  test::PlaySource source(recording.images);
+  SlamOptions options = test::KeyframesOften();
+  options.objects.tracks.min_duration_s = .3;
+  const RunOutcome outcome = RunSequential(*test::MakeSlam(recording, options), source, {});
+  ASSERT_TRUE(outcome.objects);
+  EXPECT_EQ(outcome.objects->class_names, std::vector<std::string>{"person"});
+  EXPECT_TRUE(outcome.objects->objects.empty());
+  ASSERT_FALSE(outcome.objects->tracks.empty());
+  const ObjectTrack& track = outcome.objects->tracks.front();
+  EXPECT_EQ(track.class_id, ClassId(0));
+  EXPECT_GT(track.points.size(), 4U);
+}
+
+TEST(RunSequential, MakesObjectsOfWhatNeverMovesAndNoneWhereNoneAreWanted) {
+  const test::Recording recording(10);
+  for (const bool wanted : {true, false}) {
+    test::PlaySource source(recording.images);
+    SlamOptions options = test::KeyframesOften();
+    options.dynamics.dynamic_classes = {};
+    options.dynamics.never_dynamic = {"person"};
+    options.objects.join.min_confidence = 0;
+    options.build_objects = wanted;
+    const RunOutcome outcome = RunSequential(*test::MakeSlam(recording, options), source, {});
+    ASSERT_EQ(outcome.objects.has_value(), wanted);
+    if (!wanted) continue;
+    EXPECT_FALSE(outcome.objects->objects.empty());
+    EXPECT_TRUE(outcome.objects->tracks.empty());
+    for (const SceneObject& object : outcome.objects->objects) EXPECT_GE(object.views, 2);
+  }
+}
+
 }  // namespace
 }  // namespace ofm

@@ -38,6 +38,8 @@ Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
       loaded_submap_(mapper_.map().keyframes().size() > 0 ? LargestSubmap(*mapper_.Snapshot())
                                                           : SubmapId()),
       loop_closer_(model_, options.loop, options.seed, loaded_submap_),
-      semantic_mapper_(camera, options.dense) {}
+      semantic_mapper_(camera, options.dense),
+      object_mapper_(camera, options.objects,
+                     ClassPolicies(options.dynamics, front_end_.class_names())) {}
 
 }  // namespace ofm

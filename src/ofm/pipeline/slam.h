@@ -6,6 +6,7 @@
 #include "ofm/dense/semantic_mapper.h"
 #include "ofm/loop/loop_closer.h"
 #include "ofm/mapping/mapper.h"
+#include "ofm/objects/object_mapper.h"
 #include "ofm/pipeline/front_end.h"
 #include "ofm/pipeline/options.h"
 #include "ofm/tracking/tracker.h"
@@ -26,6 +27,11 @@ class Slam {
   Mapper& mapper() { return mapper_; }
   LoopCloser& loop_closer() { return loop_closer_; }
   SemanticMapper& semantic_mapper() { return semantic_mapper_; }
+  ObjectMapper& object_mapper() { return object_mapper_; }
+  /// True where the run makes objects: it maps, and its segmenter knows classes.
+  bool makes_objects() const {
+    return options_.build_objects && !options_.localize_only && !front_end_.class_names().empty();
+  }
   const SlamOptions& options() const { return options_; }
   /// The largest sub-map of the map that was given, whose world stays; invalid where there is none.
   SubmapId loaded_submap() const { return loaded_submap_; }
@@ -42,6 +48,7 @@ class Slam {
   SubmapId loaded_submap_;
   LoopCloser loop_closer_;
   SemanticMapper semantic_mapper_;
+  ObjectMapper object_mapper_;
 };
 
 }  // namespace ofm

@@ -41,6 +41,10 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   if (lost && !lost_) ++losses_;
   lost_ = lost;
   masked_sum_ += prepared.dynamic.masked_share;
+  if (slam_.makes_objects()) {
+    ScopedStageTimer timer(times_, "object_tracks");
+    object_tracks_.Add(input.stamp_ns, prepared.frame.depth_m, prepared.dynamic.followed);
+  }
   const bool mapping = !slam_.options().localize_only;
   if (mapping) {
     sightings_.insert(sightings_.end(), result.sightings.begin(), result.sightings.end());
@@ -58,6 +62,7 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   job.sightings = std::move(sightings_);
   sightings_.clear();
   if (slam_.options().build_semantic_map) job.labelled = MakeLabelledFrame(prepared);
+  if (slam_.makes_objects()) job.instances = MakeInstanceFrame(prepared);
   return job;
 }
 
@@ -67,6 +72,7 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
   }
   outcome.trajectory = log_.Optimized(*outcome.map, outcome.submap);
   outcome.live_trajectory = log_.Live(outcome.submap);
+  if (outcome.objects) outcome.objects->tracks = object_tracks_.Build(outcome.trajectory);
   outcome.keyframe_trajectory = KeyframeTrajectory(*outcome.map, outcome.submap);
   for (const SubmapSize& submap : FindSubmaps(*outcome.map)) {
     if (submap.id == outcome.submap) continue;

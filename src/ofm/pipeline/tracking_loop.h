@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "ofm/objects/track_log.h"
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/pipeline/trajectory_log.h"
@@ -12,7 +13,10 @@ namespace ofm {
 /// Tracks frames and gathers what a run tells of them. Serves one thread.
 class TrackingLoop {
  public:
-  TrackingLoop(Slam& slam, const RunContext& context) : slam_(slam), context_(context) {}
+  TrackingLoop(Slam& slam, const RunContext& context)
+      : slam_(slam),
+        context_(context),
+        object_tracks_(slam.camera(), slam.options().objects.tracks) {}
 
   /// Tracks one frame against `map`; gives the keyframe to be mapped, if one is to be made.
   std::optional<KeyframeJob> Process(const PreparedFrame& prepared,
@@ -25,6 +29,7 @@ class TrackingLoop {
   Slam& slam_;
   const RunContext& context_;
   TrajectoryLog log_;
+  TrackLog object_tracks_;
   StageTimes times_;
   std::vector<Sighting> sightings_;  // since the last keyframe
   std::size_t keyframes_made_ = 0, losses_ = 0, submaps_begun_ = 0;
