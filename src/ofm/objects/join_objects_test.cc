@@ -33,7 +33,8 @@ TEST(JoinObjects, TellsWhatAnObjectIsAndWhereItStands) {
   EXPECT_THAT(chair.classes, testing::ElementsAre(ClassProbability{ClassId(kChair), 1}));
   EXPECT_LT((chair.centroid_in_world - Eigen::Vector3d(.25, 0, 2.05)).norm(), .05);
   EXPECT_NEAR(chair.box.size_m.x(), .5, .06);
-  EXPECT_NEAR(chair.box.size_m.z(), .6, .06) << "along up";
+  // The masks' rims, which are left out, are 5 cm wide at this resolution.
+  EXPECT_NEAR(chair.box.size_m.z(), .6, .11) << "along up";
   EXPECT_EQ(chair.views, 8);
   EXPECT_EQ(chair.views_expected, 8);
   EXPECT_NEAR(chair.confidence, .9, 1e-6);
