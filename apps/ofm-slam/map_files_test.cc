@@ -160,11 +160,10 @@ TEST_F(MapFiles, ACameraThatDiffersInOneNumberIsNamed) {
 TEST_F(MapFiles, AFullDiskLeavesTheOldMapAndTheOtherResults) {
   const std::string old = Folder("old.ofm").string();
   std::filesystem::copy_file(Map(), old);
-  const std::string limited = "ulimit -f 50; '" OFM_PROGRAM "' " +  // blocks; a map has more
-                              Arguments("full",
-                                        "--frames 4 --set build_semantic_map=false "
-                                        "--set build_objects=false") +
-                              " --save-map " + old + " 2> " + Folder("errors").string();
+  const std::string limited =
+      "ulimit -f 50; '" OFM_PROGRAM "' " +  // blocks; a map has more
+      Arguments("full", "--frames 4 --set build_semantic_map=false --set build_objects=false") +
+      " --save-map " + old + " 2> " + Folder("errors").string();
   EXPECT_NE(std::system(limited.c_str()), 0);
   EXPECT_THAT(ReadFile(Folder("errors")), HasSubstr("old.ofm: cannot be written: File too large"));
   EXPECT_TRUE(ReadFile(old) == ReadFile(Map()));
