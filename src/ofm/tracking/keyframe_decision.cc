@@ -7,9 +7,13 @@ namespace {
 
 /// Observers that a landmark needs: two, once there are so many keyframes that can have seen it.
 int MinObservations(const MapSnapshot& map, SubmapId submap) {
+  constexpr int kFew = 2;
   int keyframes = 0;
-  map.keyframes.ForEach([&](const Keyframe& keyframe) { keyframes += keyframe.submap == submap; });
-  return keyframes <= 2 ? 1 : 2;
+  for (std::uint32_t id = 0; id < map.keyframes.ids_issued() && keyframes <= kFew; ++id) {
+    const Keyframe* keyframe = map.keyframes.Find(KeyframeId(id));
+    keyframes += keyframe != nullptr && keyframe->submap == submap;
+  }
+  return keyframes <= kFew ? 1 : 2;
 }
 
 }  // namespace
