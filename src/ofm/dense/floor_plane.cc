@@ -109,6 +109,15 @@ class FloorSearch {
 
 }  // namespace
 
+Eigen::Vector3d MeanUp(const std::map<KeyframeId, RigidTransform>& world_from_camera) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [id, pose] : world_from_camera) {
+    if (pose.IsFinite()) sum -= pose.rotation() * Eigen::Vector3d::UnitY();
+  }
+  if (sum.norm() <= 1e-6) return -Eigen::Vector3d::UnitY();
+  return sum.normalized();
+}
+
 std::optional<Plane> FindFloor(std::span<const Eigen::Vector3f> surface_in_world,
                                const Eigen::Vector3d& up_in_world, double resolution_m,
                                const FloorOptions& options) {

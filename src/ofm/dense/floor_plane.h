@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <span>
 
+#include "ofm/base/ids.h"
 #include "ofm/dense/dense_options.h"
+#include "ofm/geometry/rigid_transform.h"
 
 namespace ofm {
 
@@ -16,6 +19,10 @@ struct Plane {
 
   double Height_m(const Eigen::Vector3d& point) const { return normal.dot(point) + offset_m; }
 };
+
+/// What the cameras think is up, on average, a unit vector: against the images' y axis. Poses that
+/// are not finite are left out; against the world's y axis where nothing is known.
+Eigen::Vector3d MeanUp(const std::map<KeyframeId, RigidTransform>& world_from_camera);
 
 /// The dominant plane among `surface_in_world` (centres of occupied voxels of side `resolution_m`)
 /// that can be a floor: nearly at right angles to `up_in_world` (of length 1; what the cameras

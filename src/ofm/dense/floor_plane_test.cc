@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace ofm {
@@ -65,6 +67,25 @@ TEST(FindFloor, NeedsEnoughOfIt) {
 
 TEST(FindFloor, OfNothingThereIsNone) {
   EXPECT_FALSE(FindFloor({}, Eigen::Vector3d::UnitZ(), kResolution_m, {}));
+}
+
+TEST(MeanUp, IsAgainstTheImagesYAxisOnAverage) {
+  const auto tilted = [](double angle_rad) {
+    return RigidTransform(
+        Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX())), {1, 2, 3});
+  };
+  const Eigen::Vector3d up = MeanUp({{KeyframeId(0), tilted(.3)}, {KeyframeId(1), tilted(-.3)}});
+  EXPECT_LT((up - Eigen::Vector3d(0, -1, 0)).norm(), 1e-9);
+  EXPECT_NEAR(MeanUp({{KeyframeId(0), tilted(.3)}}).z(), -std::sin(.3), 1e-9);
+}
+
+TEST(MeanUp, PosesThatAreNotFiniteSayNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const RigidTransform lost(Eigen::Quaterniond(nan, nan, nan, nan), {nan, nan, nan});
+  EXPECT_EQ(MeanUp({{KeyframeId(0), lost}}), -Eigen::Vector3d::UnitY());
+  EXPECT_EQ(MeanUp({{KeyframeId(0), lost}, {KeyframeId(1), RigidTransform()}}),
+            -Eigen::Vector3d::UnitY());
+  EXPECT_EQ(MeanUp({}), -Eigen::Vector3d::UnitY());
 }
 
 }  // namespace

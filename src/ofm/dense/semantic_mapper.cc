@@ -16,17 +16,6 @@ WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& wor
   return scan;
 }
 
-namespace {
-
-/// What the cameras think is up, on average: against the images' y axis.
-Eigen::Vector3d MeanUp(const std::map<KeyframeId, RigidTransform>& world_from_camera) {
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  for (const auto& [id, pose] : world_from_camera) up -= pose.rotation() * Eigen::Vector3d::UnitY();
-  return up.normalized();
-}
-
-}  // namespace
-
 SemanticMapper::SemanticMapper(const PinholeCamera& camera, const DenseOptions& options)
     : options_(options), cloud_maker_(camera, options) {}
 

@@ -31,9 +31,8 @@ struct JoinInput {
 /// 2. Hypotheses that overlap by the same rules are merged, those that overlap most first, unless
 ///    key frames have told them apart; then what is weak and lies within another of like size is
 ///    taken for a part of it (a laptop's keyboard) and dropped.
-/// 3. What too few key frames saw goes. Of the rest, what is at one place is merged though it
-/// shares
-///    few voxels, unless key frames have told it apart.
+/// 3. What too few key frames saw goes. Of the rest, what is at one place is merged though few of
+///    its voxels are shared, unless key frames have told it apart.
 /// 4. What only few of those key frames detected that looked at its place unhidden goes.
 ///
 /// Objects are numbered by their first sight, and then by their class.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "ofm/dense/floor_plane.h"
+
 namespace ofm {
 namespace {
 
@@ -54,12 +56,7 @@ std::vector<Eigen::Vector3d> Thin(const std::vector<Eigen::Vector3d>& all, std::
 Eigen::Vector3d EstimateUp(const PinholeCamera& camera,
                            const std::map<KeyframeId, KeyframeObjects>& keyframes,
                            const std::map<KeyframeId, RigidTransform>& world_from_camera) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& [id, pose] : world_from_camera) {
-    if (pose.IsFinite()) sum -= pose.rotation() * Eigen::Vector3d::UnitY();
-  }
-  const Eigen::Vector3d mean = sum.norm() > 1e-6 ? Eigen::Vector3d(sum.normalized())
-                                                 : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d mean = MeanUp(world_from_camera);
   std::vector<Eigen::Vector3d> upward;
   for (const auto& [id, keyframe] : keyframes) {
     const auto pose = world_from_camera.find(id);
