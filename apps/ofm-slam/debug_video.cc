@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "ofm/base/error.h"
+#include "ofm/io/make_folder.h"
 #include "ofm/pipeline/debug_view.h"
 
 namespace ofm {
@@ -15,9 +16,7 @@ DebugVideo::DebugVideo(std::filesystem::path path, std::vector<std::string> clas
   if (path_.has_extension()) {
     throw Error(path_, "name an .avi file, or a folder for single frames");
   }
-  std::error_code error;
-  std::filesystem::create_directories(path_, error);
-  if (error) throw Error(path_, "cannot be made (" + error.message() + ")");
+  MakeFolder(path_);
 }
 
 void DebugVideo::OnFrame(const FrameReport& report) {

@@ -44,11 +44,8 @@ InpaintingMetrics Measure(const InpaintingArguments& arguments) {
       throw Error(arguments.truth, "has no frame " + NameOf(inpainted.entries()[i]));
     }
     const RgbdFrame frame = inpainted.Load(i), expected = truth.Load(found->second);
-    const std::filesystem::path path = arguments.masks / (frame.name + ".png");
-    const cv::Mat actors = LoadImage(path);
-    if (actors.type() != CV_8UC1 || actors.size() != frame.color.size()) {
-      throw Error(path, "is no 8-bit instance mask of the frame's size");
-    }
+    const cv::Mat actors =
+        LoadMaskImage(arguments.masks / (frame.name + ".png"), frame.color.size());
     meter.AddFrame(frame.color, frame.depth_m, actors, expected.color, expected.depth_m);
   }
   return meter.metrics();

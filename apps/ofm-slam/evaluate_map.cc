@@ -30,12 +30,7 @@ struct MapArguments {
 };
 
 cv::Mat LoadMask(const std::filesystem::path& sequence, const RgbdFrame& frame) {
-  const std::filesystem::path path = sequence / "mask" / (frame.name + ".png");
-  cv::Mat mask = LoadImage(path);
-  if (mask.type() != CV_8UC1 || mask.size() != frame.depth_m.size()) {
-    throw Error(path, "is no 8-bit instance mask of the frame's size");
-  }
-  return mask;
+  return LoadMaskImage(sequence / "mask" / (frame.name + ".png"), frame.depth_m.size());
 }
 
 MapMetrics Measure(const MapArguments& arguments) {

@@ -6,22 +6,16 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "ofm/base/error.h"
 #include "ofm/base/options.h"
 #include "ofm/base/time.h"
 #include "ofm/dense/background_inpainter.h"
 #include "ofm/io/atomic_file.h"
 #include "ofm/io/image_file.h"
+#include "ofm/io/make_folder.h"
 #include "share_bar.h"
 
 namespace ofm {
 namespace {
-
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder, "cannot be made (" + error.message() + ")");
-}
 
 void WritePng(const std::filesystem::path& path, const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
@@ -57,13 +51,8 @@ class ViewReader {
 
   SceneView Read(const TrackedFrame& tracked) const {
     const RgbdFrame frame = sequence_.Load(tracked.index);
-    const std::filesystem::path mask = masks_ / (frame.name + ".png");
-    SceneView view{tracked.pose.stamp_ns, tracked.pose.world_from_camera, frame.color,
-                   frame.depth_m, LoadImage(mask)};
-    if (view.hidden.type() != CV_8UC1 || view.hidden.size() != frame.color.size()) {
-      throw Error(mask, "is no mask of the frame's size");
-    }
-    return view;
+    return {tracked.pose.stamp_ns, tracked.pose.world_from_camera, frame.color, frame.depth_m,
+            LoadMaskImage(masks_ / (frame.name + ".png"), frame.color.size())};
   }
 
  private:

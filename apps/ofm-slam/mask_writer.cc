@@ -1,15 +1,13 @@
 #include "mask_writer.h"
 
-#include "ofm/base/error.h"
+#include "ofm/io/make_folder.h"
 #include "ofm/perception/instance_file.h"
 
 namespace ofm {
 
 MaskWriter::MaskWriter(std::filesystem::path folder, std::vector<std::string> class_names)
     : folder_(std::move(folder)), class_names_(std::move(class_names)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw Error(folder_, "cannot be made (" + error.message() + ")");
+  MakeFolder(folder_);
 }
 
 void MaskWriter::OnFrame(const FrameReport& report) {

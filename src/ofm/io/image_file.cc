@@ -96,4 +96,12 @@ cv::Mat LoadDepthImage(const std::filesystem::path& path, double depth_scale) {
   return depth_m;
 }
 
+cv::Mat LoadMaskImage(const std::filesystem::path& path, cv::Size size) {
+  cv::Mat mask = LoadImage(path);
+  if (mask.type() != CV_8UC1 || mask.size() != size) {
+    throw Error(path, "is no 8-bit instance mask of the frame's size");
+  }
+  return mask;
+}
+
 }  // namespace ofm

@@ -18,4 +18,8 @@ cv::Mat LoadColorImage(const std::filesystem::path& path);
 /// throws where it is of another kind.
 cv::Mat LoadDepthImage(const std::filesystem::path& path, double depth_scale);
 
+/// A mask or image of instance ids, CV_8UC1 of `size`, which is the frame's; throws where it is of
+/// another kind or size.
+cv::Mat LoadMaskImage(const std::filesystem::path& path, cv::Size size);
+
 }  // namespace ofm

@@ -112,5 +112,19 @@ TEST(ImageFile, WrongKindsAreNamed) {
   EXPECT_THAT(ErrorOf([&] { LoadDepthImage(deep, 5000); }), HasSubstr("3 channels of 16 bits"));
 }
 
+TEST(ImageFile, AMaskHasOneByteAPixelAndTheFramesSize) {
+  const TestFolder folder;
+  const cv::Mat ids = Gradient(CV_8UC1);
+  const auto mask = WriteImage(folder, "mask.png", ids);
+  EXPECT_EQ(cv::norm(LoadMaskImage(mask, ids.size()), ids, cv::NORM_INF), 0);
+  EXPECT_THAT(ErrorOf([&] {
+                LoadMaskImage(mask, {7, 5});
+              }),
+              HasSubstr("mask.png: is no 8-bit instance mask of the frame's size"));
+  const auto deep = WriteImage(folder, "deep.png", Gradient(CV_16UC1));
+  EXPECT_THAT(ErrorOf([&] { LoadMaskImage(deep, ids.size()); }),
+              HasSubstr("deep.png: is no 8-bit"));
+}
+
 }  // namespace
 }  // namespace ofm

@@ -4,22 +4,16 @@
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <system_error>
 
 #include "ofm/base/error.h"
 #include "ofm/io/atomic_file.h"
+#include "ofm/io/make_folder.h"
 #include "ofm/io/trajectory_file.h"
 
 namespace ofm {
 namespace {
 
 namespace fs = std::filesystem;
-
-void MakeFolder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw Error(path, "cannot make the folder: " + error.message());
-}
 
 void WriteImage(const fs::path& path, const cv::Mat& image) {
   // The lowest compression: the files live as long as a test or a demo.
