@@ -6,6 +6,8 @@ A network runs once per scenario (run --write-masks into --masks), and the runs 
 it found: the results are the same bytes as with the network itself, and its time is added to theirs.
 Each finished run is kept in --record (JSON lines): a run that is there already is not made again, so that an
 interrupted measurement goes on where it ended. Delete both after a change of the program.
+Seeds decide RANSAC's draws alone, which most runs hardly ask for. --vary-features STEP shows how much of a difference
+between two rows is luck: run k of N has 1000 + STEP (k - (N + 1) / 2) features (keep these runs in a --record of theirs).
 The composed sequences are made by ../shared/tools/compose_dynamic.py (see ../shared/README.md).
 """
 import argparse
@@ -85,7 +87,10 @@ def measure(bench, configuration, seed):
         folder = bench.masks / network / scenario
         arguments += ['--set', f'perception.masks_folder={folder}']
         network_summary = json.loads((folder / 'summary.json').read_text())
-    if scenario != STATIC and seed == FIRST_SEED:  # measuring culling takes long and hardly depends on the seed
+    if bench.vary_features:
+        count = 1000 + bench.vary_features * (seed - (bench.seeds + 1) // 2)
+        arguments += ['--set', f'features.count={count}']
+    elif scenario != STATIC and seed == FIRST_SEED:  # measuring culling takes long and hardly depends on the seed
         arguments += ['--true-masks', str(sequence / 'mask')]
     with tempfile.TemporaryDirectory() as output:
         summary = measure_results.run(bench.program, sequence, arguments, seed, pathlib.Path(output))
@@ -132,6 +137,7 @@ def main():
     parser.add_argument('--masks', type=pathlib.Path, default=pathlib.Path('dynamics_masks'))
     parser.add_argument('--all', action='store_true', help='with yolov8n 480x640 too')
     parser.add_argument('--record', type=pathlib.Path, default=pathlib.Path('dynamics_runs.jsonl'))
+    parser.add_argument('--vary-features', type=int, default=0, metavar='STEP', help='of features.count; 0 = none')
     parser.add_argument('--only', nargs='*', help='configurations with all of these words (scenario, mode, segmenter)')
     arguments = parser.parse_args()
     runs = []

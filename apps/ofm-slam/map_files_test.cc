@@ -134,6 +134,7 @@ TEST_F(MapFiles, WhatDoesNotFitIsOneErrorLine) {
       {"--load-map " + Map() + " --camera tum-fr1",
        "made with camera.width = 240, but here it is 640"},
       {"--load-map " + Map() + " --set features.levels=6", "made with features.levels = 8"},
+      {"--load-map " + Map() + " --vocabulary " + Map(), "room.ofm: "},
       {"--save-map /nowhere/a.ofm", "/nowhere/a.ofm: cannot be written"},
       {"--localize-only", "--localize-only requires --load-map"},
       {"--set localize_only=true", "localize_only needs a map"},

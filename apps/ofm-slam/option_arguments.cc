@@ -16,6 +16,9 @@ void OptionArguments::AddTo(CLI::App& command) {
   command.add_option("--model-graph", model_graph,
                      "OpenCV's text graph (.pbtxt) for a .pb; default: the one beside it");
   command.add_option("--dynamics", dynamics, "What is culled: off, paper, full");
+  command.add_option(
+      "--vocabulary", vocabulary,
+      "File by which places are recognised (see ofm-slam vocabulary); default: built in");
 }
 
 SlamOptions OptionArguments::Resolve() const {
@@ -29,6 +32,7 @@ SlamOptions OptionArguments::Resolve() const {
   apply("perception.model", model);
   apply("perception.model_graph", model_graph);
   apply("dynamics.mode", dynamics);
+  apply("vocabulary", vocabulary);
   if (seed) options.seed = *seed;
   for (const std::string& assignment : assignments) ApplyOptionAssignment(assignment, fields);
   return options;

@@ -12,7 +12,7 @@ namespace ofm {
 
 /// Arguments that change SlamOptions; the file first, then the short cuts, then --set.
 struct OptionArguments {
-  std::string config, segmenter, model, model_graph, dynamics;
+  std::string config, segmenter, model, model_graph, dynamics, vocabulary;
   std::vector<std::string> assignments;
   std::optional<std::uint64_t> seed;
 

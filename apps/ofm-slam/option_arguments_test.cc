@@ -41,7 +41,7 @@ TEST(PrintConfig, WhatItPrintsLoadsBackToTheSame) {
   const TestFolder folder;
   const ProgramResult first = RunProgram(
       "run --print-config --seed 7 --segmenter mask-rcnn --model 'a b.pb' --model-graph c.pbtxt "
-      "--dynamics off "
+      "--dynamics off --vocabulary my.voc "
       "--set features.count=700 --set 'dynamics.dynamic_classes=person, dog'");
   const std::string file = folder.Write("my.yaml", first.out).string();
   const ProgramResult second = RunProgram("run --print-config --config " + file);
@@ -52,6 +52,7 @@ TEST(PrintConfig, WhatItPrintsLoadsBackToTheSame) {
   EXPECT_EQ(options.perception.model, "a b.pb");
   EXPECT_EQ(options.perception.model_graph, "c.pbtxt");
   EXPECT_EQ(options.dynamics.mode, DynamicsMode::kOff);
+  EXPECT_EQ(options.vocabulary, "my.voc");
   EXPECT_EQ(options.features.count, 700);
   EXPECT_THAT(options.dynamics.dynamic_classes, testing::ElementsAre("person", "dog"));
 }

@@ -110,7 +110,7 @@ MapSettings SettingsOfMap(const PinholeCamera& camera, const OrbOptions& feature
 std::shared_ptr<const MapSnapshot> LoadStartMap(const RunSettings& settings,
                                                 const PinholeCamera& camera) {
   if (settings.load_map.empty()) return nullptr;
-  const StoredMap stored = LoadMap(settings.load_map);
+  const StoredMap stored = LoadMap(settings.load_map, ResolveVocabulary(settings.options));
   RequireSameSettings(settings.load_map, stored.settings,
                       SettingsOfMap(camera, settings.options.features));
   return stored.map;

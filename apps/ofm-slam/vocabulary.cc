@@ -33,7 +33,8 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  ofm-slam vocabulary train office/rgb --output office.voc\n"
     "  ofm-slam vocabulary train a/rgb b/rgb/*.png --step 5 --output both.voc\n"
-    "  ofm-slam vocabulary info office.voc";
+    "  ofm-slam vocabulary info office.voc\n"
+    "  ofm-slam run office --vocabulary office.voc";
 
 constexpr const char* kTrainFooter =
     "IMAGES are PNG or JPEG files, and folders of them. Their features are clustered into a tree "

@@ -27,4 +27,9 @@ const Vocabulary& DefaultVocabulary() {
   return vocabulary;
 }
 
+std::shared_ptr<const Vocabulary> SharedDefaultVocabulary() {
+  const std::shared_ptr<const void> nobody;  // it outlives all who share it
+  return {nobody, &DefaultVocabulary()};
+}
+
 }  // namespace ofm

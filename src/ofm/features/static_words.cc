@@ -2,8 +2,8 @@
 
 namespace ofm {
 
-BagOfWords StaticWords(const FrameFeatures& features, double min_probability,
-                       const Vocabulary& vocabulary) {
+BagOfWords StaticWords(const FrameFeatures& features, const Vocabulary& vocabulary,
+                       double min_probability) {
   std::vector<Descriptor> descriptors;
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (features.StaticProbability(static_cast<int>(i)) < min_probability) continue;

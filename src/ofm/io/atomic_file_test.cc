@@ -2,12 +2,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <ostream>
 #include <stdexcept>
+#include <thread>
 
 #include "ofm/base/error.h"
 #include "ofm/io/read_file.h"
@@ -55,6 +60,48 @@ TEST(AtomicFile, StreamsMoreThanItsBuffer) {
     }
   });
   EXPECT_EQ(ReadFile(folder.path() / "a.txt"), expected);
+}
+
+/// A process that writes the file again and again, each time full of another letter, until it is
+/// killed as by kill -9.
+class EndlessWriter {
+ public:
+  static constexpr std::size_t kBytes = 4'000'000;
+
+  explicit EndlessWriter(const std::filesystem::path& path) : process_(fork()) {
+    if (process_ == 0) WriteForever(path);
+  }
+  ~EndlessWriter() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  EndlessWriter(const EndlessWriter&) = delete;
+  EndlessWriter& operator=(const EndlessWriter&) = delete;
+
+ private:
+  /// Ends with the test at the latest.
+  [[noreturn]] static void WriteForever(const std::filesystem::path& path) noexcept {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (char letter = 'a';; letter = letter == 'z' ? 'a' : static_cast<char>(letter + 1)) {
+      WriteFileAtomically(path, std::string(kBytes, letter));
+    }
+  }
+
+  pid_t process_;
+};
+
+TEST(AtomicFile, AProcessKilledAtAnyMomentLeavesAWholeFile) {
+  const TestFolder folder;
+  const std::filesystem::path path = folder.path() / "a.txt";
+  WriteFileAtomically(path, std::string(EndlessWriter::kBytes, 'a'));
+  for (int delay_ms = 1; delay_ms <= 20; ++delay_ms) {
+    {
+      const EndlessWriter writer(path);
+      std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    }
+    const std::string contents = ReadFile(path);
+    ASSERT_EQ(contents, std::string(EndlessWriter::kBytes, contents.at(0))) << delay_ms;
+  }
 }
 
 TEST(AtomicFile, ReplacesAnOlderFileAndKeepsItsPermissions) {

@@ -5,6 +5,7 @@
 
 #include "ofm/loop/essential_graph.h"
 #include "ofm/loop/loop_duplicates.h"
+#include "ofm/map/submap.h"
 
 namespace ofm {
 namespace {
@@ -23,10 +24,11 @@ RelativePoseSigma Scaled(double scale) {
 class GraphBuilder {
  public:
   GraphBuilder(const MapSnapshot& map, SubmapId submap) : map_(map) {
+    const KeyframeId held = FindWorldHolder(map, submap);
     map.keyframes.ForEach([&](const Keyframe& keyframe) {
       if (keyframe.submap != submap) return;
       index_[keyframe.id] = static_cast<int>(ids_.size());
-      problem_.poses.push_back({keyframe.camera_from_world, ids_.empty()});
+      problem_.poses.push_back({keyframe.camera_from_world, keyframe.id == held});
       ids_.push_back(keyframe.id);
     });
   }

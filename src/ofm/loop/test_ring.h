@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "ofm/features/default_vocabulary.h"
 #include "ofm/features/static_words.h"
 #include "ofm/map/test_map.h"
 #include "ofm/sim/normal_deviate.h"
@@ -108,7 +109,8 @@ class RingMap {
     const RingWorld::View view = world.Look(i);
     Keyframe keyframe = MakeTestKeyframe(view.features);
     keyframe.stamp_ns = i;
-    keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*view.features));
+    keyframe.words =
+        std::make_shared<const BagOfWords>(StaticWords(*view.features, DefaultVocabulary()));
     keyframe.camera_from_world = world.Truth(i);
     if (begin_) keyframe.camera_from_world = *begin_, keyframe.submap = SubmapId();
     begin_.reset();

@@ -88,7 +88,8 @@ Map::Map(OctaveScales scales, const MapSnapshot& snapshot)
       landmarks_(snapshot.landmarks),
       replacements_(snapshot.replacements),
       anchors_(snapshot.anchors),
-      latest_keyframe_(snapshot.latest_keyframe) {
+      latest_keyframe_(snapshot.latest_keyframe),
+      vocabulary_(snapshot.vocabulary) {
   OFM_CHECK(replacements_.size() == snapshot.landmarks.ids_issued());
 }
 
@@ -242,6 +243,7 @@ std::shared_ptr<const MapSnapshot> Map::Snapshot() {
   snapshot->latest_keyframe = latest_keyframe_;
   snapshot->keyframe_count = keyframes_.size();
   snapshot->landmark_count = landmarks_.size();
+  snapshot->vocabulary = vocabulary_;
   return snapshot;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "ofm/features/default_vocabulary.h"
 #include "ofm/map/keyframe.h"
 #include "ofm/map/landmark.h"
 #include "ofm/map/versioned_table.h"
@@ -26,6 +27,8 @@ struct MapSnapshot {
   std::map<KeyframeId, KeyframeAnchor> anchors;  ///< of removed keyframes
   KeyframeId latest_keyframe;
   std::size_t keyframe_count = 0, landmark_count = 0;
+  /// By which the words of the keyframes were made. Never null.
+  std::shared_ptr<const Vocabulary> vocabulary = SharedDefaultVocabulary();
 
   /// The landmark or what it was fused into; null where it is gone.
   const Landmark* FindLandmark(LandmarkId id) const;
@@ -41,7 +44,7 @@ struct MapSnapshot {
 class Map {
  public:
   explicit Map(OctaveScales scales) : scales_(std::move(scales)) {}
-  /// A map that goes on from `snapshot`, which does not change.
+  /// A map that goes on from `snapshot`, which does not change, with its vocabulary.
   Map(OctaveScales scales, const MapSnapshot& snapshot);
 
   /// Adds a keyframe whose landmarks are named by `keyframe.landmarks`; names that are gone or come
@@ -88,6 +91,7 @@ class Map {
   const VersionedTable<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
   KeyframeId latest_keyframe() const { return latest_keyframe_; }
   const OctaveScales& scales() const { return scales_; }
+  const Vocabulary& vocabulary() const { return *vocabulary_; }
 
   std::shared_ptr<const MapSnapshot> Snapshot();
 
@@ -98,6 +102,7 @@ class Map {
   std::vector<LandmarkId> replacements_;  // by landmark id; invalid where it was not fused
   std::map<KeyframeId, KeyframeAnchor> anchors_;
   KeyframeId latest_keyframe_;
+  std::shared_ptr<const Vocabulary> vocabulary_ = SharedDefaultVocabulary();
 };
 
 }  // namespace ofm

@@ -65,7 +65,7 @@ void SaveMap(const std::filesystem::path& path, const MapSnapshot& map,
   WriteFileAtomically(path, bytes);
 }
 
-StoredMap LoadMap(const std::filesystem::path& path) {
+StoredMap LoadMap(const std::filesystem::path& path, std::shared_ptr<const Vocabulary> vocabulary) {
   const std::string bytes = ReadFile(path);
   const std::string_view contents = Unseal(path, bytes);
   const std::uint32_t version = ReadBigEndian(contents, kVersionOffset);
@@ -75,7 +75,7 @@ StoredMap LoadMap(const std::filesystem::path& path) {
                                   version, kMapFileVersion));
   }
   try {
-    return ReadMapTables(SqliteDatabase(contents));
+    return ReadMapTables(SqliteDatabase(contents), std::move(vocabulary));
   } catch (const Error& error) {
     throw Error(path, fmt::format("is no map that ofm-slam wrote: {}", error.what()));
   }

@@ -41,8 +41,9 @@ void SaveMap(const std::filesystem::path& path, const MapSnapshot& map,
              const MapSettings& settings);
 
 /// Throws Error for a file that is missing, is no map, is of another version, or in which one byte
-/// is not what was written.
-StoredMap LoadMap(const std::filesystem::path& path);
+/// is not what was written. The keyframes' words are not stored: `vocabulary` makes them anew.
+StoredMap LoadMap(const std::filesystem::path& path,
+                  std::shared_ptr<const Vocabulary> vocabulary = SharedDefaultVocabulary());
 
 /// Throws Error that names the first setting in which the map at `path` and those who want to go on
 /// with it differ. The scale of depth images may: the map is in metres.

@@ -6,7 +6,9 @@
 
 #include <csignal>
 
+#include "ofm/features/default_vocabulary.h"
 #include "ofm/features/static_words.h"
+#include "ofm/features/test_vocabulary.h"
 #include "ofm/io/read_file.h"
 #include "ofm/io/sha256.h"
 #include "ofm/io/sqlite_database.h"
@@ -84,8 +86,19 @@ TEST_F(MapFile, GivesBackTheMapToTheLastBit) {
   EXPECT_EQ(test::FindProblem(*stored.map), "");
   const Keyframe& keyframe = *stored.map->keyframes.Find(KeyframeId(0));
   EXPECT_FALSE(keyframe.frame_id.valid());
-  EXPECT_EQ(*keyframe.words, StaticWords(*keyframe.features));
+  EXPECT_EQ(*keyframe.words, StaticWords(*keyframe.features, DefaultVocabulary()));
   EXPECT_EQ(stored.map->FindLandmark(LandmarkId(1))->id, LandmarkId(2));
+}
+
+TEST_F(MapFile, WordsAreOfTheVocabularyThatIsAskedFor) {
+  SaveMap(path_, *MakeMap(), {});
+  const auto vocabulary = std::make_shared<const Vocabulary>(RegularTree(9));
+  const StoredMap stored = LoadMap(path_, vocabulary);
+  EXPECT_EQ(stored.map->vocabulary, vocabulary);
+  const Keyframe& keyframe = *stored.map->keyframes.Find(KeyframeId(0));
+  EXPECT_FALSE(keyframe.words->empty());
+  EXPECT_EQ(*keyframe.words, StaticWords(*keyframe.features, *vocabulary));
+  EXPECT_NE(*keyframe.words, StaticWords(*keyframe.features, DefaultVocabulary()));
 }
 
 TEST_F(MapFile, GivesBackTheSettings) {

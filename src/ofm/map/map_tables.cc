@@ -147,7 +147,7 @@ template <class T>
 using Objects = std::vector<std::shared_ptr<T>>;
 
 Objects<Keyframe> ReadKeyframes(const SqliteDatabase& database, const MapSettings& settings,
-                                const MapState& state) {
+                                const MapState& state, const Vocabulary& vocabulary) {
   Objects<Keyframe> keyframes(state.keyframe_ids);
   SqliteStatement row = database.Prepare("SELECT * FROM keyframes ORDER BY id");
   while (row.Step()) {
@@ -157,7 +157,8 @@ Objects<Keyframe> ReadKeyframes(const SqliteDatabase& database, const MapSetting
     keyframe->submap = SubmapId(static_cast<std::uint32_t>(row.Integer(2)));
     keyframe->camera_from_world = ReadTransform(row, 3);
     keyframe->features = ReadFeatures(row, 10, settings);
-    keyframe->words = std::make_shared<const BagOfWords>(StaticWords(*keyframe->features));
+    keyframe->words =
+        std::make_shared<const BagOfWords>(StaticWords(*keyframe->features, vocabulary));
     for (const std::uint32_t id :
          NumbersOf<std::uint32_t>(row.Blob(18), keyframe->features->size())) {
       keyframe->landmarks.emplace_back(id);
@@ -284,12 +285,13 @@ void WriteMapTables(SqliteDatabase& database, const MapSnapshot& map, const MapS
   database.Execute("COMMIT");
 }
 
-StoredMap ReadMapTables(const SqliteDatabase& database) {
+StoredMap ReadMapTables(const SqliteDatabase& database,
+                        std::shared_ptr<const Vocabulary> vocabulary) {
   StoredMap stored;
   ReadSettings(database, OptionFields(stored.settings));
   MapState state;
   ReadSettings(database, OptionFields(state));
-  const Objects<Keyframe> keyframes = ReadKeyframes(database, stored.settings, state);
+  const Objects<Keyframe> keyframes = ReadKeyframes(database, stored.settings, state, *vocabulary);
   const Objects<Landmark> landmarks = ReadLandmarks(database, state);
   AddObservations(keyframes, landmarks);
 
@@ -299,6 +301,7 @@ StoredMap ReadMapTables(const SqliteDatabase& database) {
   map->keyframe_count = CountObjects(keyframes);
   map->landmark_count = CountObjects(landmarks);
   map->latest_keyframe = KeyframeId(state.latest_keyframe);
+  map->vocabulary = std::move(vocabulary);
   ReadHistory(database, *map);
   stored.map = std::move(map);
   return stored;

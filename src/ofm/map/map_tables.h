@@ -10,6 +10,7 @@ namespace ofm {
 void WriteMapTables(SqliteDatabase& database, const MapSnapshot& map, const MapSettings& settings);
 
 /// Throws Error with the reason where the tables are not what WriteMapTables makes.
-StoredMap ReadMapTables(const SqliteDatabase& database);
+StoredMap ReadMapTables(const SqliteDatabase& database,
+                        std::shared_ptr<const Vocabulary> vocabulary);
 
 }  // namespace ofm

@@ -18,4 +18,14 @@ SubmapId LargestSubmap(const MapSnapshot& map) {
   return largest == submaps.end() ? SubmapId(0) : largest->id;
 }
 
+KeyframeId FindWorldHolder(const MapSnapshot& map, SubmapId submap) {
+  const Keyframe* first = map.keyframes.Find(KeyframeId(submap.value));
+  if (first != nullptr && first->submap == submap) return first->id;
+  KeyframeId oldest;
+  map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    if (!oldest.valid() && keyframe.submap == submap) oldest = keyframe.id;
+  });
+  return oldest;
+}
+
 }  // namespace ofm

@@ -21,4 +21,9 @@ std::vector<SubmapSize> FindSubmaps(const MapSnapshot& map);
 /// The one with most keyframes, of equals the older; of an empty map the one that begins it.
 SubmapId LargestSubmap(const MapSnapshot& map);
 
+/// The keyframe that holds a sub-map's frame of reference when the others move: the one that began
+/// it, or where that is gone the oldest. After a join that is not the oldest of all where the older
+/// one joined the younger. Invalid where the sub-map has none.
+KeyframeId FindWorldHolder(const MapSnapshot& map, SubmapId submap);
+
 }  // namespace ofm

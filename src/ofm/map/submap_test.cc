@@ -54,6 +54,22 @@ TEST_F(Submaps, AreNumberedByTheKeyframeThatBeganThem) {
   EXPECT_EQ(submaps[1].keyframes, 3U);
 }
 
+TEST_F(Submaps, EachWorldIsHeldByTheKeyframeThatBeganIt) {
+  EXPECT_EQ(FindWorldHolder(*map_.Snapshot(), SubmapId(0)), KeyframeId(0));
+  EXPECT_EQ(FindWorldHolder(*map_.Snapshot(), SubmapId(2)), KeyframeId(2));
+  EXPECT_FALSE(FindWorldHolder(*map_.Snapshot(), SubmapId(1)).valid());
+}
+
+TEST_F(Submaps, AWorldIsHeldByItsOldestKeyframeWhereTheFirstIsGone) {
+  map_.RemoveKeyframe(KeyframeId(2), KeyframeId(3));
+  EXPECT_EQ(FindWorldHolder(*map_.Snapshot(), SubmapId(2)), KeyframeId(3));
+}
+
+TEST_F(Submaps, AWorldIsHeldByItsOwnFirstKeyframeWhereAnOlderSubmapJoined) {
+  map_.JoinSubmaps(SubmapId(0), SubmapId(2));
+  EXPECT_EQ(FindWorldHolder(*map_.Snapshot(), SubmapId(2)), KeyframeId(2));
+}
+
 TEST_F(Submaps, TheLargestHasMostKeyframesAndOfEqualsIsTheOlder) {
   EXPECT_EQ(LargestSubmap(*map_.Snapshot()), SubmapId(2));
   map_.RemoveKeyframe(KeyframeId(4), KeyframeId(3));

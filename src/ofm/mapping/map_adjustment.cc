@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ofm/map/covisibility.h"
+#include "ofm/map/submap.h"
 
 namespace ofm {
 namespace {
@@ -142,11 +143,13 @@ std::optional<MapCorrection> ComputeWholeAdjustment(const MapSnapshot& map,
                                                     const BundleOptions& bundle,
                                                     std::stop_token stop) {
   AdjustmentScope scope;
-  std::set<SubmapId> held;  // each frame of reference, by its oldest keyframe
-  map.keyframes.ForEach([&](const Keyframe& keyframe) {
-    (held.insert(keyframe.submap).second ? scope.fixed : scope.free).insert(keyframe.id);
-  });
+  for (const SubmapSize& submap : FindSubmaps(map)) {
+    scope.fixed.insert(FindWorldHolder(map, submap.id));
+  }
   if (scope.fixed.empty()) return {};
+  map.keyframes.ForEach([&](const Keyframe& keyframe) {
+    if (!scope.fixed.contains(keyframe.id)) scope.free.insert(keyframe.id);
+  });
   map.landmarks.ForEach([&](const Landmark& landmark) { scope.landmarks.insert(landmark.id); });
   const MapExtract extract = Extract(map.keyframes, map.landmarks, scope, model);
   const BundleResult result = AdjustBundle(model.camera, extract.problem, bundle, stop);

@@ -15,8 +15,9 @@ namespace ofm {
 void AdjustLocally(Map& map, KeyframeId current, const MeasurementModel& model,
                    const MappingOptions& options, std::stop_token stop = {});
 
-/// What adjusting all keyframes but the first of each sub-map and all landmarks of a snapshot comes
-/// to; empty where the solver failed or `stop` was requested. May run while the map is changed.
+/// What adjusting all keyframes but one of each sub-map (FindWorldHolder) and all landmarks of a
+/// snapshot comes to; empty where the solver failed or `stop` was requested. May run while the map
+/// is changed.
 std::optional<MapCorrection> ComputeWholeAdjustment(const MapSnapshot& map,
                                                     const MeasurementModel& model,
                                                     const BundleOptions& bundle,

@@ -40,7 +40,8 @@ KeyframeId Mapper::Insert(const KeyframeCandidate& candidate,
   keyframe.frame_id = candidate.frame_id;
   keyframe.stamp_ns = candidate.stamp_ns;
   keyframe.features = candidate.features;
-  keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*candidate.features));
+  keyframe.words =
+      std::make_shared<const BagOfWords>(StaticWords(*candidate.features, map_.vocabulary()));
   keyframe.landmarks = candidate.landmarks;
   keyframe.camera_from_world = candidate.camera_from_world;
   // The reference may have been adjusted, or removed, since the candidate was tracked against it.

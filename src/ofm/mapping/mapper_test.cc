@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ofm/features/default_vocabulary.h"
 #include "ofm/features/static_words.h"
 #include "ofm/mapping/test_mapping.h"
 
@@ -83,7 +84,7 @@ TEST(Mapper, InsertTellsTheWordsOfWhatStandsStill) {
   });
   const Keyframe& keyframe = mapping.map().GetKeyframe(mapping.Insert(frame));
   ASSERT_NE(keyframe.words, nullptr);
-  EXPECT_EQ(*keyframe.words, StaticWords(*frame.features));
+  EXPECT_EQ(*keyframe.words, StaticWords(*frame.features, DefaultVocabulary()));
   EXPECT_FALSE(keyframe.words->empty());
 }
 

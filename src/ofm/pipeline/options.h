@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "ofm/base/options.h"
 #include "ofm/dense/dense_options.h"
@@ -22,6 +23,7 @@ struct SlamOptions {
   bool build_objects = true;     ///< where there is a segmenter
   bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
   bool localize_only = false;    ///< no mapping: the camera is followed in a map that was loaded
+  std::string vocabulary = {};   ///< file that places are recognised by; empty = the built-in one
   PerceptionOptions perception;
   DynamicsOptions dynamics;
   OrbOptions features;
@@ -42,6 +44,8 @@ struct SlamOptions {
           "bundle adjustment over all keyframes at the end");
     visit("localize_only", self.localize_only,
           "no mapping: the camera is followed in a map that was loaded");
+    visit("vocabulary", self.vocabulary,
+          "file that places are recognised by (ofm-slam vocabulary); empty = the built-in one");
     visit("perception", self.perception);
     visit("dynamics", self.dynamics);
     visit("features", self.features);

@@ -1,6 +1,7 @@
 #include "ofm/pipeline/slam.h"
 
 #include "ofm/base/error.h"
+#include "ofm/features/vocabulary_file.h"
 #include "ofm/map/submap.h"
 
 namespace ofm {
@@ -22,10 +23,18 @@ std::shared_ptr<const MapSnapshot> RequireMap(std::shared_ptr<const MapSnapshot>
                                               const SlamOptions& options) {
   const bool empty = !map || map->keyframe_count == 0;
   if (options.localize_only && empty) throw Error("localize_only needs a map: load one");
-  return map ? std::move(map) : std::make_shared<const MapSnapshot>();
+  if (map) return map;
+  auto none = std::make_shared<MapSnapshot>();
+  none->vocabulary = ResolveVocabulary(options);
+  return none;
 }
 
 }  // namespace
+
+std::shared_ptr<const Vocabulary> ResolveVocabulary(const SlamOptions& options) {
+  if (options.vocabulary.empty()) return SharedDefaultVocabulary();
+  return std::make_shared<const Vocabulary>(LoadVocabulary(options.vocabulary));
+}
 
 Slam::Slam(const PinholeCamera& camera, const SlamOptions& options,
            std::unique_ptr<Segmenter> segmenter, std::shared_ptr<const MapSnapshot> map)

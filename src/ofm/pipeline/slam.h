@@ -13,12 +13,17 @@
 
 namespace ofm {
 
+/// By which the places of a new map are recognised, and those of a loaded one are to be: that of
+/// options.vocabulary, or the built-in one. Throws Error where the file is none. Never null.
+std::shared_ptr<const Vocabulary> ResolveVocabulary(const SlamOptions& options);
+
 /// One SLAM system. Several in one process do not notice one another. Each stage serves the one
 /// thread that its runner gives it.
 class Slam {
  public:
-  /// Goes on with `map`, where there is one: it must be of the same camera and of the same pyramid.
-  /// Throws Error where there is none and options.localize_only.
+  /// Goes on with `map`, where there is one: it must be of the same camera and of the same pyramid,
+  /// and its vocabulary counts. Throws Error where there is none and options.localize_only, or
+  /// where ResolveVocabulary does.
   Slam(const PinholeCamera& camera, const SlamOptions& options,
        std::unique_ptr<Segmenter> segmenter, std::shared_ptr<const MapSnapshot> map = nullptr);
 

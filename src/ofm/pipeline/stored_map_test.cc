@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "ofm/eval/ate.h"
+#include "ofm/features/static_words.h"
+#include "ofm/features/test_vocabulary.h"
+#include "ofm/features/vocabulary_file.h"
 #include "ofm/io/test_folder.h"
 #include "ofm/map/map_file.h"
 #include "ofm/map/test_map.h"
@@ -113,6 +116,31 @@ TEST_F(StoredMapRun, NeverRelocalisedLeavesTheMapAsItIs) {
   EXPECT_EQ(outcome.counts.frames_tracked, 0U);
   EXPECT_EQ(outcome.counts.losses, 1U);
   EXPECT_EQ(test::FindDifference(*outcome.map, *map_), "");
+}
+
+TEST_F(StoredMapRun, TheVocabularyOfTheOptionsMakesAllWords) {
+  const TestFolder folder;
+  const Vocabulary vocabulary{RegularTree(9)};
+  SaveVocabulary(folder.path() / "own.voc", vocabulary);
+  SlamOptions options = Options();
+  options.vocabulary = (folder.path() / "own.voc").string();
+  const auto words_are_its = [&](const MapSnapshot& map) {
+    bool all = map.keyframe_count > 0;
+    map.keyframes.ForEach([&](const Keyframe& keyframe) {
+      all = all && *keyframe.words == StaticWords(*keyframe.features, vocabulary);
+    });
+    return all;
+  };
+  const auto mapped = Run(nullptr, 0, kMapped, options).map;
+  EXPECT_TRUE(words_are_its(*mapped));
+  EXPECT_TRUE(words_are_its(*Run(mapped, kMapped, kFrames - kMapped, options).map));
+}
+
+TEST_F(StoredMapRun, AFileThatIsNoVocabularyIsAnError) {
+  const TestFolder folder;
+  SlamOptions options = Options();
+  options.vocabulary = folder.Write("a.voc", "words").string();
+  EXPECT_THAT(ErrorOf([&] { Run(nullptr, 0, 1, options); }), testing::HasSubstr("a.voc: "));
 }
 
 TEST_F(StoredMapRun, LocaliseOnlyWithoutAMapIsAnError) {

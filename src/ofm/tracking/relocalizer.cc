@@ -14,7 +14,7 @@ std::vector<KeyframeId> RankByAppearance(const TrackingInput& input) {
     KeyframeId id;
     double similarity;
   };
-  const BagOfWords words = StaticWords(*input.features);
+  const BagOfWords words = StaticWords(*input.features, *input.map->vocabulary);
   std::vector<Ranked> ranked;
   input.map->keyframes.ForEach([&](const Keyframe& keyframe) {
     const double similarity = keyframe.words ? Similarity(words, *keyframe.words) : 0;

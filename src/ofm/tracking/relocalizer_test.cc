@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ofm/features/default_vocabulary.h"
 #include "ofm/features/static_words.h"
 #include "ofm/tracking/test_run.h"
 
@@ -33,7 +34,8 @@ std::shared_ptr<const MapSnapshot> MapOfPlaces(int count, const std::set<int>& k
   for (int i = 0; i < count; ++i) {
     Keyframe keyframe = test::MakeTestKeyframe(FeaturesOfPlace(i));
     if (known.contains(i)) {
-      keyframe.words = std::make_shared<const BagOfWords>(StaticWords(*keyframe.features));
+      keyframe.words =
+          std::make_shared<const BagOfWords>(StaticWords(*keyframe.features, DefaultVocabulary()));
     }
     map.AddKeyframe(std::move(keyframe));
   }
