@@ -8,7 +8,7 @@ packages=(
   # tools
   build-essential ccache cmake git ninja-build python3
   # libraries
-  libceres-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libfmt-dev liboctomap-dev
+  libboost-dev libceres-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libfmt-dev liboctomap-dev
   libopencv-dev libspdlog-dev libsqlite3-dev libssl-dev libyaml-cpp-dev nlohmann-json3-dev
   # tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev

@@ -29,6 +29,7 @@ constexpr const char* kFooter =
     "  ofm-slam run desk_walking --segmenter masks --output out\n"
     "  ofm-slam run desk_walking --segmenter yolo-seg --model yolov8n-seg.onnx --output out\n"
     "  ofm-slam run desk --threaded --set features.count=1500 --seed 3 --output out\n"
+    "  ofm-slam run desk --threaded --view\n"
     "  ofm-slam run desk --save-map desk.ofm\n"
     "  ofm-slam run desk_later --load-map desk.ofm --localize-only";
 
@@ -92,6 +93,18 @@ void AddRunCommand(CLI::App& app) {
       "--write-inpainted", settings.write_inpainted,
       "Folder for the frames without what moved in them: a TUM folder whose hidden\n"
       "colour and depth are filled from the keyframes before and after");
+  CLI::Option* view = command->add_flag(
+      "--view", settings.view,
+      "Show the run in a browser while it goes on: frame, masks, features, growing map");
+  command->add_option("--view-port", settings.view_server.port, "Port of the view; 0 = any")
+      ->needs(view)
+      ->capture_default_str();
+  command
+      ->add_option("--view-address", settings.view_server.address,
+                   "Address that the view listens on: 127.0.0.1 is this machine alone, 0.0.0.0\n"
+                   "shows it to everyone who can reach this machine")
+      ->needs(view)
+      ->capture_default_str();
   command->add_option("--debug-video", settings.debug_video,
                       "FILE.avi or folder: masks, flow, dynamic and static points of every frame");
   CLI::Option* load = command->add_option("--load-map", settings.load_map,

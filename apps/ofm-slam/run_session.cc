@@ -20,6 +20,7 @@
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/pipeline/trajectory_log.h"
+#include "ofm/view/live_view.h"
 #include "progress_bar.h"
 
 namespace ofm {
@@ -116,6 +117,17 @@ std::shared_ptr<const MapSnapshot> LoadStartMap(const RunSettings& settings,
   return stored.map;
 }
 
+/// Null where none is asked for.
+std::unique_ptr<LiveView> OpenView(const RunSettings& settings, const PinholeCamera& camera,
+                                   const Segmenter& segmenter, const FrameSource& frames) {
+  if (!settings.view) return nullptr;
+  LiveViewOptions options;
+  options.server = settings.view_server;
+  auto view = std::make_unique<LiveView>(options, camera, segmenter.class_names(), frames.size());
+  fmt::print(stderr, "live view at {}\n", view->url());
+  return view;
+}
+
 /// Errors in the world of `map`, where the ground truth is known for its keyframes too.
 std::optional<TrajectoryEvaluation> EvaluateInMap(std::optional<Truth> truth,
                                                   const MapSnapshot* map,
@@ -167,6 +179,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   }
   std::optional<HiddenPixelRecorder> hidden;
   if (!settings.write_inpainted.empty()) hidden.emplace(settings.write_inpainted);
+  std::unique_ptr<LiveView> view = OpenView(settings, camera, *segmenter, *source.frames);
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -177,6 +190,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (meter) context.observers.push_back(&*meter);
     if (mask_writer) context.observers.push_back(&*mask_writer);
     if (hidden) context.observers.push_back(&*hidden);
+    if (view) context.observers.push_back(view.get());
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -185,6 +199,8 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (report.outcome.counts.frames == 0 && !report.outcome.error.empty()) {
     throw Error(report.outcome.error);
   }
+  if (view) view->ShowMap(report.outcome.map);
+  view.reset();
   if (source.paced != nullptr) report.outcome.counts.frames_dropped = source.paced->dropped();
   report.description.version = OFM_VERSION;
   report.description.input = settings.sequence.string();

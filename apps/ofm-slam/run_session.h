@@ -10,6 +10,7 @@
 #include "ofm/pipeline/options.h"
 #include "ofm/pipeline/result_writer.h"
 #include "ofm/pipeline/run_outcome.h"
+#include "ofm/view/web_server.h"
 
 namespace ofm {
 
@@ -27,6 +28,8 @@ struct RunSettings {
   bool realtime = false;           ///< at the recorded pace; frames that come too early wait
   std::size_t realtime_queue = 4;  ///< frames that can wait; of more the oldest are dropped
   bool quiet = false;              ///< no progress bar
+  bool view = false;               ///< serve a page that shows the run while it goes on
+  WebServerOptions view_server = {"127.0.0.1", 8642};
   SlamOptions options;
 };
 

@@ -34,22 +34,6 @@ void Tint(cv::Mat& image, const cv::Scalar& color, const cv::Mat& mask) {
   tinted.copyTo(image, mask);
 }
 
-cv::Mat DrawMasks(const PreparedFrame& prepared, const std::vector<std::string>& class_names) {
-  cv::Mat image = prepared.frame.color.clone();
-  Tint(image, kRed, prepared.dynamic.mask);
-  for (const Instance& instance : prepared.segmentation.instances) {
-    std::vector<std::vector<cv::Point>> outline;
-    cv::findContours(instance.mask.clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
-    cv::drawContours(image, outline, -1, ColorOf(instance.id), 2);
-    const bool is_named = instance.class_id.value < class_names.size();
-    Write(image,
-          fmt::format("{} {:.2f}", is_named ? class_names[instance.class_id.value] : "?",
-                      instance.score),
-          instance.box.tl() + cv::Point(4, 16));
-  }
-  return image;
-}
-
 cv::Mat DrawStaticOnly(const PreparedFrame& prepared) {
   cv::Mat image = prepared.frame.color.clone();
   if (!prepared.dynamic.mask.empty()) image.setTo(cv::Scalar::all(0), prepared.dynamic.mask);
@@ -85,6 +69,22 @@ cv::Mat DrawFeatures(const FrameReport& report) {
 }
 
 }  // namespace
+
+cv::Mat DrawMasks(const PreparedFrame& prepared, const std::vector<std::string>& class_names) {
+  cv::Mat image = prepared.frame.color.clone();
+  Tint(image, kRed, prepared.dynamic.mask);
+  for (const Instance& instance : prepared.segmentation.instances) {
+    std::vector<std::vector<cv::Point>> outline;
+    cv::findContours(instance.mask.clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    cv::drawContours(image, outline, -1, ColorOf(instance.id), 2);
+    const bool is_named = instance.class_id.value < class_names.size();
+    Write(image,
+          fmt::format("{} {:.2f}", is_named ? class_names[instance.class_id.value] : "?",
+                      instance.score),
+          instance.box.tl() + cv::Point(4, 16));
+  }
+  return image;
+}
 
 cv::Mat DrawDebugView(const FrameReport& report, const std::vector<std::string>& class_names) {
   cv::Mat upper, lower, view;

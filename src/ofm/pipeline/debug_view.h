@@ -7,6 +7,10 @@
 
 namespace ofm {
 
+/// The frame (CV_8UC3, a copy) with instance masks outlined, their class and score, and the dynamic
+/// mask in red.
+cv::Mat DrawMasks(const PreparedFrame& prepared, const std::vector<std::string>& class_names);
+
 /// Four pictures of the frame's size in one (CV_8UC3, twice as wide and high), as in the OFM-SLAM
 /// paper's figures: upper left the frame with instance masks, their class and score, and the
 /// dynamic mask in red; upper right the frame with what is dynamic set to 0 (Figure 3); lower left

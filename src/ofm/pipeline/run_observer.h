@@ -12,6 +12,8 @@ struct FrameReport {
   const TrackingResult& tracking;
   std::size_t frames_done = 0;
   std::size_t keyframes = 0, landmarks = 0;
+  /// That it was tracked against; null before there is one.
+  std::shared_ptr<const MapSnapshot> map = {};
 };
 
 /// Called from the tracking thread; must return soon.

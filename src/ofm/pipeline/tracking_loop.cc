@@ -53,6 +53,7 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   if (input.map) {
     report.keyframes = input.map->keyframe_count;
     report.landmarks = input.map->landmark_count;
+    report.map = input.map;
   }
   for (RunObserver* observer : context_.observers) observer->OnFrame(report);
   if (!result.keyframe || !mapping) return {};
