@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ofm/base/check.h"
+#include "ofm/camera/depth_noise.h"
 #include "ofm/dense/usable_pixels.h"
 #include "ofm/dense/voxel_filter.h"
 
@@ -33,6 +34,8 @@ struct RowReader {
   LabelledPoint At(int column, const Eigen::Vector3f& position) const {
     const cv::Vec3b& bgr = color[column];
     LabelledPoint point{position, {bgr[2], bgr[1], bgr[0]}, kNoLabel, unlabelled_confidence};
+    const double sigma_m = DepthSigma(position.z());
+    point.precision = static_cast<float>(1 / (sigma_m * sigma_m));
     if (class_ids != nullptr && class_ids[column] != kNoLabel) {
       point.class_id = class_ids[column];
       point.confidence = confidence[column];

@@ -26,8 +26,9 @@ void SemanticMapper::AddKeyframe(const LabelledFrame& frame) {
 
 SemanticMap SemanticMapper::Build(
     const std::map<KeyframeId, RigidTransform>& world_from_camera) const {
-  SemanticMap map{{}, SemanticOctree(options_.resolution_m, options_.occupancy)};
-  VoxelFilter filter(options_.CloudResolution());
+  SemanticMap map{{},
+                  SemanticOctree(options_.resolution_m, options_.occupancy, options_.LabelShare())};
+  ViewVoxelFilter filter(options_.CloudResolution());
   for (const auto& [id, cloud] : clouds_) {
     const auto pose = world_from_camera.find(id);
     if (pose == world_from_camera.end()) continue;

@@ -23,13 +23,15 @@ std::uint8_t ToByte(float value) {
 
 SemanticOctree::Block::Block() { log_odds.fill(kUnknown); }
 
-SemanticOctree::SemanticOctree(double resolution_m, const OccupancyOptions& options)
+SemanticOctree::SemanticOctree(double resolution_m, const OccupancyOptions& options,
+                               double label_share)
     : resolution_m_(resolution_m),
       options_(options),
       hit_(LogOdds(options.probability_hit)),
       miss_(LogOdds(options.probability_miss)),
       min_(LogOdds(options.probability_min)),
-      max_(LogOdds(options.probability_max)) {
+      max_(LogOdds(options.probability_max)),
+      evidence_(resolution_m, label_share) {
   DenseOptions check;
   check.resolution_m = resolution_m;
   check.occupancy = options;
@@ -79,7 +81,7 @@ void SemanticOctree::FuseSurface(Block& block, int cell, const LabelledPoint& po
   surface.points += 1;
   const Eigen::Vector3f color(point.color.r, point.color.g, point.color.b);
   surface.color += (color - surface.color) / surface.points;
-  surface.votes.Add(point.class_id, point.confidence);
+  surface.labels.Add(point.class_id, evidence_(point));
 }
 
 std::vector<VoxelIndex> SemanticOctree::InsertHits(std::span<const LabelledPoint> points) {
@@ -128,8 +130,8 @@ SemanticVoxel SemanticOctree::VoxelAt(const Block& block, int cell) {
   if (block.surface[cell] == 0) return voxel;
   const Surface& surface = block.surfaces[block.surface[cell] - 1];
   voxel.color = {ToByte(surface.color[0]), ToByte(surface.color[1]), ToByte(surface.color[2])};
-  voxel.class_id = surface.votes.Best();
-  voxel.confidence = surface.votes.Confidence();
+  voxel.class_id = surface.labels.Best();
+  voxel.confidence = surface.labels.Confidence();
   return voxel;
 }
 

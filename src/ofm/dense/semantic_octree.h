@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ofm/dense/dense_options.h"
-#include "ofm/dense/label_votes.h"
+#include "ofm/dense/label_belief.h"
 #include "ofm/dense/labelled_point.h"
 #include "ofm/dense/voxel_table.h"
 
@@ -22,7 +22,7 @@ struct SemanticVoxel {
   float log_odds = 0;  ///< of being occupied
   Rgb color;           ///< mean of the points in it; black where none fell in
   std::uint8_t class_id = kNoLabel;
-  std::uint8_t confidence = 0;  ///< of class_id, 255 = sure
+  std::uint8_t confidence = 0;  ///< probability of class_id, 255 = sure
 
   /// More likely occupied than not, as OctoMap's default.
   bool IsOccupied() const { return log_odds >= 0; }
@@ -37,10 +37,12 @@ struct WorldScan {
 
 /// The map of voxels that becomes an OctoMap file (octree_file.h). In memory it is no tree but a
 /// hash table of blocks of 8 x 8 x 8 voxels, which the rays cross several times faster; the
-/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives.
+/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives. Labels are
+/// fused by Bayes' rule (LabelBelief).
 class SemanticOctree {
  public:
-  SemanticOctree(double resolution_m, const OccupancyOptions& options);
+  /// Each labelled point counts as `label_share` of an observation (PointEvidence).
+  SemanticOctree(double resolution_m, const OccupancyOptions& options, double label_share = 1);
 
   /// Fuses a scan. Each voxel is updated once: as hit where a point is in it, else as missed where
   /// a ray crosses it. There is one ray per voxel with points, to its centre. A voxel that has
@@ -71,7 +73,7 @@ class SemanticOctree {
   struct Surface {
     Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean
     float points = 0;
-    LabelVotes votes;
+    LabelBelief labels;
   };
   struct Block {
     Block();
@@ -96,6 +98,7 @@ class SemanticOctree {
   double resolution_m_;
   OccupancyOptions options_;
   float hit_, miss_, min_, max_;  // log-odds
+  PointEvidence evidence_;
   std::uint32_t scan_ = 0;
   VoxelTable table_;          // block coordinates to number in blocks_
   std::deque<Block> blocks_;  // references to blocks stay valid

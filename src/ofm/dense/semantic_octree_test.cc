@@ -119,13 +119,33 @@ TEST(SemanticOctree, RaysToFreeEndsFillNothing) {
 
 TEST(SemanticOctree, LabelsAndColorsAreFused) {
   SemanticOctree octree(kResolution_m, {});
-  octree.InsertScan({kOrigin, {{kEnd, {100, 0, 10}, 3, 100}}, {}});
+  octree.InsertScan({kOrigin, {{kEnd, {100, 0, 10}, 3, 51}}, {}});
   octree.InsertScan({kOrigin, {{kEnd, {200, 1, 10}, 5, 250}}, {}});
-  octree.InsertScan({kOrigin, {{kEnd, {150, 2, 10}, 3, 100}}, {}});
+  EXPECT_EQ(octree.Find(kEnd)->class_id, 5);
+  octree.InsertScan({kOrigin, {{kEnd, {150, 2, 10}, 3, 204}}, {}});
   const SemanticVoxel voxel = *octree.Find(kEnd);
-  EXPECT_EQ(voxel.class_id, 5);
-  EXPECT_EQ(voxel.confidence, 83);  // 250 / 3
+  EXPECT_EQ(voxel.class_id, 3);
+  // Two doubtful views agree: .25 x 80 x 4 x 80 against 50 x 80 and 79 others.
+  EXPECT_EQ(voxel.confidence, std::lround(255 * 6400. / (6400 + 4000 + 79)));
   EXPECT_EQ(voxel.color, (Rgb{150, 1, 10}));
+}
+
+TEST(SemanticOctree, LabelsOfUncertainDepthCountLess) {
+  const auto fused = [](float precision) {
+    SemanticOctree octree(kResolution_m, {});
+    octree.InsertScan({kOrigin, {{kEnd, {}, 3, 128}}, {}});
+    octree.InsertScan({kOrigin, {{kEnd, {}, 5, 230, precision}}, {}});
+    return octree.Find(kEnd)->class_id;
+  };
+  EXPECT_EQ(fused(1e6f), 5);
+  EXPECT_EQ(fused(1 / (.08f * .08f)), 3);  // +- 8 cm in a voxel of 10 cm
+}
+
+TEST(SemanticOctree, PointsOfOneViewCanShareAnObservation) {
+  SemanticOctree octree(kResolution_m, {}, .25);
+  octree.InsertScan({kOrigin, std::vector<LabelledPoint>(4, {kEnd, {}, 3, 204}), {}});
+  EXPECT_EQ(octree.Find(kEnd)->class_id, 3);
+  EXPECT_EQ(octree.Find(kEnd)->confidence, 204);
 }
 
 TEST(SemanticOctree, VoxelsComeInAnOrderThatDoesNotDependOnTheScans) {
