@@ -113,13 +113,44 @@ inline EnumNameList<MapColor> EnumNames(MapColor) {
   return kNames;
 }
 
-/// How the octree is written.
+/// When the octree is brought up to date.
+enum class OctreeUpkeepTime { kWhileRunning, kAtEnd };
+
+inline EnumNameList<OctreeUpkeepTime> EnumNames(OctreeUpkeepTime) {
+  static constexpr std::array<std::pair<OctreeUpkeepTime, std::string_view>, 2> kNames{
+      {{OctreeUpkeepTime::kWhileRunning, "while_running"}, {OctreeUpkeepTime::kAtEnd, "at_end"}}};
+  return kNames;
+}
+
+/// How the octree is made and written.
 struct OctreeOptions {
+  OctreeUpkeepTime upkeep = OctreeUpkeepTime::kWhileRunning;
   MapColor color = MapColor::kAppearance;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
+    visit("upkeep", self.upkeep, "when key frames go into the octree");
     visit("color", self.color, "what the colours of map.ot show");
+  }
+};
+
+enum class CloudFormat { kPly, kPcd, kBoth };
+
+inline EnumNameList<CloudFormat> EnumNames(CloudFormat) {
+  static constexpr std::array<std::pair<CloudFormat, std::string_view>, 3> kNames{
+      {{CloudFormat::kPly, "ply"}, {CloudFormat::kPcd, "pcd"}, {CloudFormat::kBoth, "both"}}};
+  return kNames;
+}
+
+/// How the cloud is written.
+struct CloudFileOptions {
+  CloudFormat format = CloudFormat::kPly;
+  MapColor color = MapColor::kAppearance;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("format", self.format, "which of map.ply and map.pcd to write");
+    visit("color", self.color, "what the colours of the cloud show");
   }
 };
 
@@ -130,6 +161,7 @@ struct DenseOptions {
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
   OctreeOptions octree;
+  CloudFileOptions cloud_file;
   NavigationOptions navigation;
   InpaintingOptions inpainting;
 
@@ -149,6 +181,7 @@ struct DenseOptions {
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
     visit("octree", self.octree);
+    visit("cloud_file", self.cloud_file);
     visit("navigation", self.navigation);
     visit("inpainting", self.inpainting);
   }

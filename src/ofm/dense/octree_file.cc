@@ -90,16 +90,22 @@ std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octr
                                                       MapColor color) {
   auto tree = std::make_unique<ExactColorOcTree>(octree.resolution_m());
   SetSensorModel(*tree, octree.options());
-  if (octree.empty()) return tree;  // ColorOcTree::updateInnerOccupancy needs a root
   octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
     octomap::ColorOcTreeNode* node = tree->setNodeValue(KeyOf(index), voxel.log_odds, true);
     if (!voxel.IsOccupied()) return;
-    const Rgb rgb = color == MapColor::kLabel ? LabelColor(voxel.class_id) : voxel.color;
+    const Rgb rgb = ChooseColor(color, voxel.color, voxel.class_id);
     node->setColor(rgb.r, rgb.g, rgb.b);
   });
+  if (tree->getRoot() == nullptr) return tree;  // updateInnerOccupancy needs one
   tree->updateInnerOccupancy();
   tree->prune();
   return tree;
+}
+
+bool IsOccupied(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
+  if (voxel.minCoeff() < -kVoxelLimit || voxel.maxCoeff() >= kVoxelLimit) return false;
+  const octomap::ColorOcTreeNode* node = octree.search(KeyOf(voxel));
+  return node != nullptr && octree.isNodeOccupied(node);
 }
 
 void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree, MapColor color) {

@@ -20,6 +20,9 @@ namespace ofm {
 std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octree,
                                                       MapColor color = MapColor::kAppearance);
 
+/// False where the voxel is free, unknown or beyond the grid's limits.
+bool IsOccupied(const octomap::ColorOcTree& octree, const VoxelIndex& voxel);
+
 /// Writes a .ot file: occupancy in full and colour; octovis, octomap_server and
 /// octomap::AbstractOcTree::read open it as a ColorOcTree. Throws Error where writing fails.
 void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree,

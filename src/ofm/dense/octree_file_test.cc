@@ -102,6 +102,14 @@ TEST(WriteColorOcTree, AnEmptyMapIsAFileToo) {
   EXPECT_EQ(tree->size(), 0u);
 }
 
+TEST(IsOccupied, IsFalseWhereFreeUnknownOrBeyondTheGrid) {
+  const auto tree = MakeColorOcTree(MakeWall(1));
+  EXPECT_TRUE(IsOccupied(*tree, {3, 2, 40}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 30}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 50}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 40 + 65536}));
+}
+
 TEST(LoadColorOcTree, ReadsWhatWasWrittenAndSaysNothing) {
   const TestFolder folder;
   std::ostringstream written;

@@ -50,6 +50,16 @@ class SemanticOctree {
   /// the origin is not finite or beyond the grid's limits; such points are left out.
   bool InsertScan(const WorldScan& scan);
 
+  /// The blocks of voxels that the last scan hit or crossed, by number; each once.
+  const std::vector<std::uint32_t>& touched_blocks() const { return touched_; }
+  /// The blocks that inserting the scan would touch; changes nothing that is known.
+  std::vector<std::uint32_t> FindBlocks(const WorldScan& scan);
+  /// Forgets all that is known in these blocks. Until EndRebuild scans change these alone: after
+  /// the scans that touched them were inserted again, in the order of old, all voxels are as if
+  /// only these scans had ever been.
+  void BeginRebuild(std::span<const std::uint32_t> blocks);
+  void EndRebuild();
+
   /// Empty where no ray has been, or outside the grid's limits.
   std::optional<SemanticVoxel> Find(const VoxelIndex& voxel) const;
   std::optional<SemanticVoxel> Find(const Eigen::Vector3f& position_in_world) const;
@@ -62,7 +72,8 @@ class SemanticOctree {
 
   double resolution_m() const { return resolution_m_; }
   const OccupancyOptions& options() const { return options_; }
-  bool empty() const { return blocks_.empty(); }
+  /// True where nothing is known.
+  bool empty() const;
   std::size_t MemoryBytes() const;
 
  private:
@@ -82,17 +93,24 @@ class SemanticOctree {
     std::vector<Surface> surfaces;
     std::bitset<kBlockVoxels> updated;  // in scan `updated_in`
     std::uint32_t updated_in = 0;
+    std::uint32_t number = 0;
+    bool rebuilds = false;
   };
+  /// What a scan may change.
+  enum class Pass { kAll, kRebuilt, kNothing };
 
   static VoxelIndex BlockOf(const VoxelIndex& voxel);
   static int CellOf(const VoxelIndex& voxel);
   static SemanticVoxel VoxelAt(const Block& block, int cell);
 
-  Block& BlockAt(const VoxelIndex& block);
+  Block& TouchBlock(const VoxelIndex& block);
   void FuseSurface(Block& block, int cell, const LabelledPoint& point);
+  template <Pass kPass>
+  bool Insert(const WorldScan& scan);
+  template <Pass kPass>
   std::vector<VoxelIndex> InsertHits(std::span<const LabelledPoint> points);
+  template <Pass kPass>
   void InsertMisses(const Eigen::Vector3f& origin, const Eigen::Vector3f& end);
-  bool MarkUpdated(Block& block, int cell) const;
   void Update(Block& block, int cell, float change) const;
 
   double resolution_m_;
@@ -102,6 +120,8 @@ class SemanticOctree {
   std::uint32_t scan_ = 0;
   VoxelTable table_;          // block coordinates to number in blocks_
   std::deque<Block> blocks_;  // references to blocks stay valid
+  std::vector<std::uint32_t> touched_;
+  std::optional<std::vector<std::uint32_t>> rebuilt_;  // between BeginRebuild and EndRebuild
 };
 
 }  // namespace ofm

@@ -2,6 +2,11 @@
 
 namespace ofm {
 
+void InstanceVotes::Add(std::uint16_t instance) {
+  if (lead_ == 0) instance_ = instance;
+  lead_ += instance == instance_ ? 1 : -1;
+}
+
 template <class Labels, class Weight>
 void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point) {
   const std::optional<VoxelIndex> voxel = FindVoxel(point.position, voxels_per_metre_);
@@ -14,6 +19,7 @@ void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point) {
   sum.precision += point.precision;
   ++sum.count;
   sum.labels.Add(point.class_id, weight_(point));
+  sum.instances.Add(point.instance);
 }
 
 template <class Labels, class Weight>
@@ -28,7 +34,8 @@ std::vector<LabelledPoint> BasicVoxelFilter<Labels, Weight>::Points() const {
                       {mean(0), mean(1), mean(2)},
                       sum.labels.Best(),
                       sum.labels.Confidence(),
-                      static_cast<float>(sum.precision / sum.count)});
+                      static_cast<float>(sum.precision / sum.count),
+                      sum.labels.Best() == kNoLabel ? kNoInstance : sum.instances.Best()});
   }
   return points;
 }

@@ -16,8 +16,21 @@ struct PointConfidence {
   std::uint8_t operator()(const LabelledPoint& point) const { return point.confidence; }
 };
 
+/// The instance of a voxel: one that most of its points are of is always found (Boyer and Moore,
+/// "MJRTY: a fast majority vote algorithm", 1981).
+class InstanceVotes {
+ public:
+  void Add(std::uint16_t instance);
+  std::uint16_t Best() const { return instance_; }
+
+ private:
+  std::uint16_t instance_ = kNoInstance;
+  int lead_ = 0;
+};
+
 /// Gathers points in voxels and gives one point per voxel: the mean of their positions weighted by
-/// their precision, mean colour and precision, and one label.
+/// their precision, mean colour and precision, one label, and where it has one the instance of most
+/// points.
 template <class Labels, class Weight>
 class BasicVoxelFilter {
  public:
@@ -37,6 +50,7 @@ class BasicVoxelFilter {
     double precision = 0;
     int count = 0;
     Labels labels;
+    InstanceVotes instances;
   };
 
   double voxels_per_metre_;

@@ -42,6 +42,19 @@ TEST(VoxelFilter, TheLabelOfOneViewIsVotedAndOfManyViewsBelieved) {
   EXPECT_EQ(views.Points()[0].confidence, 255);
 }
 
+TEST(VoxelFilter, TheInstanceOfMostPointsIsKeptWhereThereIsALabel) {
+  VoxelFilter filter(.1);
+  for (const std::uint16_t instance : {9, 2, 2, 9, 2}) {
+    filter.Add({{.01f, 0, 0}, {}, 5, 200, 1e6f, instance});
+  }
+  filter.Add({{.11f, 0, 0}, {}, 5, 10, 1e6f, 4});
+  filter.Add({{.11f, 0, 0}, {}, kNoLabel, 128});
+  const auto points = filter.Points();
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].instance, 2);
+  EXPECT_EQ(points[1].instance, kNoInstance);
+}
+
 TEST(VoxelFilter, VoxelsComeInTheOrderOfTheirFirstPoints) {
   VoxelFilter filter(.1);
   filter.Add({{.95f, 0, 0}, {}, 1, 1});
