@@ -1,6 +1,10 @@
 // Settings of the semantic map.
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include "ofm/base/options.h"
 
 namespace ofm {
@@ -12,7 +16,7 @@ struct KeyframeCloudOptions {
   int mask_dilation_px = 4;           ///< dropped around what moves, whatever its depth
   int mask_margin_px = 16;            ///< dropped around what moves where the depth is alike
   double mask_margin_depth_m = 0.2;   ///< how alike
-  double unlabelled_confidence = .5;  ///< weight of "no label" against labels, 0 to 1
+  double unlabelled_confidence = .5;  ///< what "no label" counts, as a label's confidence
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -27,7 +31,7 @@ struct KeyframeCloudOptions {
     visit("mask_margin_depth_m", self.mask_margin_depth_m,
           "depth difference that counts as alike [m]", Range{0, 10});
     visit("unlabelled_confidence", self.unlabelled_confidence,
-          "weight of 'no label' against labels", Range{0, 1});
+          "a pixel without label counts like a label of this confidence", Range{0, 1});
   }
 };
 
@@ -100,17 +104,72 @@ struct InpaintingOptions {
   }
 };
 
+/// What the colours of a map tell.
+enum class MapColor { kAppearance, kLabel };
+
+inline EnumNameList<MapColor> EnumNames(MapColor) {
+  static constexpr std::array<std::pair<MapColor, std::string_view>, 2> kNames{
+      {{MapColor::kAppearance, "appearance"}, {MapColor::kLabel, "label"}}};
+  return kNames;
+}
+
+/// When the octree is brought up to date.
+enum class OctreeUpkeepTime { kWhileRunning, kAtEnd };
+
+inline EnumNameList<OctreeUpkeepTime> EnumNames(OctreeUpkeepTime) {
+  static constexpr std::array<std::pair<OctreeUpkeepTime, std::string_view>, 2> kNames{
+      {{OctreeUpkeepTime::kWhileRunning, "while_running"}, {OctreeUpkeepTime::kAtEnd, "at_end"}}};
+  return kNames;
+}
+
+/// How the octree is made and written.
+struct OctreeOptions {
+  OctreeUpkeepTime upkeep = OctreeUpkeepTime::kWhileRunning;
+  MapColor color = MapColor::kAppearance;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("upkeep", self.upkeep, "when key frames go into the octree");
+    visit("color", self.color, "what the colours of map.ot show");
+  }
+};
+
+enum class CloudFormat { kPly, kPcd, kBoth };
+
+inline EnumNameList<CloudFormat> EnumNames(CloudFormat) {
+  static constexpr std::array<std::pair<CloudFormat, std::string_view>, 3> kNames{
+      {{CloudFormat::kPly, "ply"}, {CloudFormat::kPcd, "pcd"}, {CloudFormat::kBoth, "both"}}};
+  return kNames;
+}
+
+/// How the cloud is written.
+struct CloudFileOptions {
+  CloudFormat format = CloudFormat::kPly;
+  MapColor color = MapColor::kAppearance;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("format", self.format, "which of map.ply and map.pcd to write");
+    visit("color", self.color, "what the colours of the cloud show");
+  }
+};
+
 struct DenseOptions {
   double resolution_m = .05;       ///< side of an octree voxel
   double range_m = 5;              ///< farther points only free the space before them
   int cloud_points_per_voxel = 2;  ///< cloud points along a voxel's side
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
+  OctreeOptions octree;
+  CloudFileOptions cloud_file;
   NavigationOptions navigation;
   InpaintingOptions inpainting;
 
   /// Side of a cloud voxel [m].
   double CloudResolution() const { return resolution_m / cloud_points_per_voxel; }
+  /// Of an observation: what one point says of its voxel's label. A view of a surface puts this
+  /// many points into a voxel, and they are of one mask.
+  double LabelShare() const { return 1. / (cloud_points_per_voxel * cloud_points_per_voxel); }
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -121,6 +180,8 @@ struct DenseOptions {
           "points of the cloud along an octree voxel's side", Range{1, 8});
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
+    visit("octree", self.octree);
+    visit("cloud_file", self.cloud_file);
     visit("navigation", self.navigation);
     visit("inpainting", self.inpainting);
   }

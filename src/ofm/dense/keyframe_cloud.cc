@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ofm/base/check.h"
+#include "ofm/camera/depth_noise.h"
 #include "ofm/dense/usable_pixels.h"
 #include "ofm/dense/voxel_filter.h"
 
@@ -21,6 +22,12 @@ void CheckFrame(const LabelledFrame& frame, const PinholeCamera& camera) {
   for (const cv::Mat* image : {&frame.class_ids, &frame.confidence, &frame.dynamic_mask}) {
     if (!image->empty()) CheckImage(*image, CV_8UC1, camera);
   }
+  if (!frame.instances.empty()) CheckImage(frame.instances, CV_16UC1, camera);
+}
+
+template <class T>
+const T* RowOf(const cv::Mat& image, int row) {
+  return image.empty() ? nullptr : image.ptr<T>(row);
 }
 
 /// Colours and labels of one image row.
@@ -28,20 +35,33 @@ struct RowReader {
   const cv::Vec3b* color;
   const std::uint8_t* class_ids;   // null without labels
   const std::uint8_t* confidence;  // null without labels
+  const std::uint16_t* instances;  // null without instances
   std::uint8_t unlabelled_confidence;
 
   LabelledPoint At(int column, const Eigen::Vector3f& position) const {
     const cv::Vec3b& bgr = color[column];
     LabelledPoint point{position, {bgr[2], bgr[1], bgr[0]}, kNoLabel, unlabelled_confidence};
+    const double sigma_m = DepthSigma(position.z());
+    point.precision = static_cast<float>(1 / (sigma_m * sigma_m));
     if (class_ids != nullptr && class_ids[column] != kNoLabel) {
       point.class_id = class_ids[column];
       point.confidence = confidence[column];
+      if (instances != nullptr) point.instance = instances[column];
     }
     return point;
   }
 };
 
 }  // namespace
+
+WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& world_from_camera) {
+  const Eigen::Matrix3f rotation = world_from_camera.RotationMatrix().cast<float>();
+  const Eigen::Vector3f origin = world_from_camera.translation().cast<float>();
+  WorldScan scan{origin, cloud.points_in_camera, cloud.free_ends_in_camera};
+  for (LabelledPoint& point : scan.points) point.position = rotation * point.position + origin;
+  for (Eigen::Vector3f& end : scan.free_ends) end = rotation * end + origin;
+  return scan;
+}
 
 KeyframeCloudMaker::KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options)
     : camera_(camera), options_(options) {
@@ -67,11 +87,10 @@ KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& frame) const {
     const auto* row_usable = usable.ptr<std::uint8_t>(row);
     const auto* row_depth = frame.depth_m.ptr<float>(row);
     const Eigen::Vector2f* row_rays = &rays_[static_cast<std::size_t>(row) * camera_.width];
-    const bool labelled = !frame.class_ids.empty();
     const RowReader reader{frame.color.ptr<cv::Vec3b>(row),
-                           labelled ? frame.class_ids.ptr<std::uint8_t>(row) : nullptr,
-                           labelled ? frame.confidence.ptr<std::uint8_t>(row) : nullptr,
-                           unlabelled};
+                           RowOf<std::uint8_t>(frame.class_ids, row),
+                           RowOf<std::uint8_t>(frame.confidence, row),
+                           RowOf<std::uint16_t>(frame.instances, row), unlabelled};
     for (int column = 0; column < camera_.width; ++column) {
       if (row_usable[column] == 0) continue;
       const Eigen::Vector3f point =

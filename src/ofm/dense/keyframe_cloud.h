@@ -1,12 +1,16 @@
 // A key frame as a small labelled cloud.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "ofm/camera/pinhole_camera.h"
 #include "ofm/dense/dense_options.h"
 #include "ofm/dense/labelled_frame.h"
 #include "ofm/dense/labelled_point.h"
+#include "ofm/dense/semantic_octree.h"
+#include "ofm/geometry/rigid_transform.h"
 
 namespace ofm {
 
@@ -17,6 +21,15 @@ struct KeyframeCloud {
   /// Ends, at the range limit, of the rays to points beyond it: they free and fill nothing [m].
   std::vector<Eigen::Vector3f> free_ends_in_camera;
 };
+
+/// By key frame; shared, so that other threads can read them.
+using KeyframeClouds = std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>>;
+
+/// world_from_camera of key frames.
+using KeyframePoseMap = std::map<KeyframeId, RigidTransform>;
+
+/// A key frame's cloud where `world_from_camera` puts it.
+WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& world_from_camera);
 
 /// Makes clouds for one camera. The range is the distance from the camera, not z.
 class KeyframeCloudMaker {

@@ -45,6 +45,19 @@ TEST(KeyframeCloud, ColorsAndLabelsAreThoseOfTheSurface) {
   EXPECT_GT(wall, 1000);
 }
 
+TEST(KeyframeCloud, PointsKnowTheirInstanceAndHowPreciseTheirDepthIs) {
+  LabelledFrame frame = Render(SmallCamera(), {Wall(), Chair()}, RigidTransform(), KeyframeId(0));
+  frame.instances = cv::Mat(frame.depth_m.size(), CV_16UC1, cv::Scalar(kNoInstance));
+  frame.instances.setTo(3, frame.class_ids == test::kChair);
+  for (const LabelledPoint& point :
+       KeyframeCloudMaker(SmallCamera(), {}).Make(frame).points_in_camera) {
+    const bool on_chair = point.class_id == test::kChair;
+    EXPECT_EQ(point.instance, on_chair ? 3 : kNoInstance);
+    const double sigma_m = 1.4e-3 * (on_chair ? 2.02 * 2.02 : 3.02 * 3.02);
+    EXPECT_NEAR(1 / std::sqrt(point.precision), sigma_m, 1e-5);
+  }
+}
+
 TEST(KeyframeCloud, ThereIsOnePointPerVoxel) {
   DenseOptions coarse;
   coarse.resolution_m = .4;

@@ -3,23 +3,15 @@
 #include <cmath>
 
 #include "ofm/base/check.h"
+#include "ofm/dense/octree_file.h"
 
 namespace ofm {
 namespace {
 
-bool IsOccupied(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
-  const auto part = [](int v) { return static_cast<octomap::key_type>(v + kVoxelLimit); };
-  const octomap::OcTreeKey key(part(voxel.x()), part(voxel.y()), part(voxel.z()));
-  const octomap::ColorOcTreeNode* node = octree.search(key);
-  return node != nullptr && octree.isNodeOccupied(node);
-}
-
 bool HasOccupiedFaceNeighbor(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int step : {-1, 1}) {
-      const VoxelIndex neighbor = voxel + step * VoxelIndex::Unit(axis);
-      const bool inside = neighbor.minCoeff() >= -kVoxelLimit && neighbor.maxCoeff() < kVoxelLimit;
-      if (inside && IsOccupied(octree, neighbor)) return true;
+      if (IsOccupied(octree, voxel + step * VoxelIndex::Unit(axis))) return true;
     }
   }
   return false;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ofm/base/error.h"
+#include "ofm/dense/label_color.h"
 #include "ofm/io/read_file.h"
 
 namespace ofm {
@@ -85,21 +86,30 @@ void CheckWritten(const std::ostream& stream) {
 
 }  // namespace
 
-std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octree) {
+std::unique_ptr<octomap::ColorOcTree> MakeColorOcTree(const SemanticOctree& octree,
+                                                      MapColor color) {
   auto tree = std::make_unique<ExactColorOcTree>(octree.resolution_m());
   SetSensorModel(*tree, octree.options());
-  if (octree.empty()) return tree;  // ColorOcTree::updateInnerOccupancy needs a root
   octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
     octomap::ColorOcTreeNode* node = tree->setNodeValue(KeyOf(index), voxel.log_odds, true);
-    if (voxel.IsOccupied()) node->setColor(voxel.color.r, voxel.color.g, voxel.color.b);
+    if (!voxel.IsOccupied()) return;
+    const Rgb rgb = ChooseColor(color, voxel.color, voxel.class_id);
+    node->setColor(rgb.r, rgb.g, rgb.b);
   });
+  if (tree->getRoot() == nullptr) return tree;  // updateInnerOccupancy needs one
   tree->updateInnerOccupancy();
   tree->prune();
   return tree;
 }
 
-void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree) {
-  const auto tree = MakeColorOcTree(octree);
+bool IsOccupied(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
+  if (voxel.minCoeff() < -kVoxelLimit || voxel.maxCoeff() >= kVoxelLimit) return false;
+  const octomap::ColorOcTreeNode* node = octree.search(KeyOf(voxel));
+  return node != nullptr && octree.isNodeOccupied(node);
+}
+
+void WriteColorOcTree(std::ostream& stream, const SemanticOctree& octree, MapColor color) {
+  const auto tree = MakeColorOcTree(octree, color);
   WriteHeader(stream, kOcTreeFile, *tree);
   tree->writeData(stream);
   CheckWritten(stream);

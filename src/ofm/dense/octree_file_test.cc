@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "ofm/base/error.h"
+#include "ofm/dense/label_color.h"
 #include "ofm/io/test_folder.h"
 
 namespace ofm {
@@ -33,9 +34,10 @@ octomap::OcTreeKey KeyOf(const VoxelIndex& v) {
           static_cast<octomap::key_type>(v.z() + kVoxelLimit)};
 }
 
-std::unique_ptr<octomap::ColorOcTree> ReadBack(const SemanticOctree& octree) {
+std::unique_ptr<octomap::ColorOcTree> ReadBack(const SemanticOctree& octree,
+                                               MapColor color = MapColor::kAppearance) {
   std::stringstream stream;
-  WriteColorOcTree(stream, octree);
+  WriteColorOcTree(stream, octree, color);
   std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(stream));
   EXPECT_NE(tree, nullptr);
   return std::unique_ptr<octomap::ColorOcTree>(dynamic_cast<octomap::ColorOcTree*>(tree.release()));
@@ -81,10 +83,31 @@ TEST(WriteColorOcTree, EqualVoxelsAreJoinedAndColorsAreNeverMixed) {
   EXPECT_LT(tree->getNumLeafNodes(), voxels);
 }
 
+TEST(WriteColorOcTree, VoxelsCanHaveTheColorOfTheirLabel) {
+  const SemanticOctree octree = MakeWall(2);
+  const auto tree = ReadBack(octree, MapColor::kLabel);
+  ASSERT_NE(tree, nullptr);
+  const auto color_at = [&](const VoxelIndex& voxel) {
+    const auto color = tree->search(KeyOf(voxel))->getColor();
+    return Rgb{color.r, color.g, color.b};
+  };
+  EXPECT_EQ(color_at({-3, 2, 40}), LabelColor(56));
+  EXPECT_EQ(color_at({3, 2, 40}), LabelColor(kNoLabel));
+  EXPECT_EQ(color_at({3, 2, 30}), (Rgb{255, 255, 255}));
+}
+
 TEST(WriteColorOcTree, AnEmptyMapIsAFileToo) {
   const auto tree = ReadBack(SemanticOctree(.05, {}));
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(tree->size(), 0u);
+}
+
+TEST(IsOccupied, IsFalseWhereFreeUnknownOrBeyondTheGrid) {
+  const auto tree = MakeColorOcTree(MakeWall(1));
+  EXPECT_TRUE(IsOccupied(*tree, {3, 2, 40}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 30}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 50}));
+  EXPECT_FALSE(IsOccupied(*tree, {3, 2, 40 + 65536}));
 }
 
 TEST(LoadColorOcTree, ReadsWhatWasWrittenAndSaysNothing) {
@@ -162,7 +185,7 @@ TEST(WriteVoxelLabels, OneLinePerLabelledVoxel) {
   const std::vector<std::string> names{"person", "chair, folding"};
   WriteVoxelLabels(stream, octree, names);
   EXPECT_EQ(stream.str(),
-            "x,y,z,class_id,class,confidence\n0.025,0.025,1.025,1,chair  folding,1.000\n");
+            "x,y,z,class_id,class,confidence\n0.025,0.025,1.025,1,chair  folding,0.988\n");
 }
 
 TEST(OctreeFiles, AStreamThatFailsIsAnError) {

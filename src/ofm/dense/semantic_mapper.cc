@@ -3,40 +3,54 @@
 #include <spdlog/spdlog.h>
 
 #include "ofm/base/check.h"
+#include "ofm/dense/octree_integrator.h"
 #include "ofm/dense/voxel_filter.h"
 
 namespace ofm {
 
-WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& world_from_camera) {
-  const Eigen::Matrix3f rotation = world_from_camera.RotationMatrix().cast<float>();
-  const Eigen::Vector3f origin = world_from_camera.translation().cast<float>();
-  WorldScan scan{origin, cloud.points_in_camera, cloud.free_ends_in_camera};
-  for (LabelledPoint& point : scan.points) point.position = rotation * point.position + origin;
-  for (Eigen::Vector3f& end : scan.free_ends) end = rotation * end + origin;
-  return scan;
+namespace {
+
+std::uint16_t FindObject(const InstanceObjects& objects, KeyframeId keyframe,
+                         std::uint16_t instance) {
+  const auto known = objects.find(keyframe);
+  if (known == objects.end() || instance >= known->second.size()) return kNoInstance;
+  return known->second[instance];
 }
+
+}  // namespace
 
 SemanticMapper::SemanticMapper(const PinholeCamera& camera, const DenseOptions& options)
     : options_(options), cloud_maker_(camera, options) {}
 
 void SemanticMapper::AddKeyframe(const LabelledFrame& frame) {
   OFM_CHECK(frame.id.valid());
-  clouds_.insert_or_assign(frame.id, cloud_maker_.Make(frame));
+  clouds_.insert_or_assign(frame.id,
+                           std::make_shared<const KeyframeCloud>(cloud_maker_.Make(frame)));
 }
 
-SemanticMap SemanticMapper::Build(
-    const std::map<KeyframeId, RigidTransform>& world_from_camera) const {
-  SemanticMap map{{}, SemanticOctree(options_.resolution_m, options_.occupancy)};
-  VoxelFilter filter(options_.CloudResolution());
+SemanticMap SemanticMapper::Build(const KeyframePoseMap& world_from_camera,
+                                  const InstanceObjects& objects) const {
+  OctreeIntegrator integrator(options_);
+  integrator.Update(clouds_, world_from_camera, 0);
+  return Complete(integrator.Take(), world_from_camera, objects);
+}
+
+SemanticMap SemanticMapper::Complete(SemanticOctree octree,
+                                     const KeyframePoseMap& world_from_camera,
+                                     const InstanceObjects& objects) const {
+  SemanticMap map{{}, std::move(octree)};
+  ViewVoxelFilter filter(options_.CloudResolution());
   for (const auto& [id, cloud] : clouds_) {
     const auto pose = world_from_camera.find(id);
     if (pose == world_from_camera.end()) continue;
-    const WorldScan scan = TransformToWorld(cloud, pose->second);
-    if (!pose->second.IsFinite() || !map.octree.InsertScan(scan)) {
+    if (!IsUsablePose(pose->second, options_)) {
       spdlog::warn("semantic map: key frame {} is left out, its pose is not usable", id.value);
       continue;
     }
-    for (const LabelledPoint& point : scan.points) filter.Add(point);
+    for (LabelledPoint point : TransformToWorld(*cloud, pose->second).points) {
+      point.instance = FindObject(objects, id, point.instance);
+      filter.Add(point);
+    }
   }
   map.cloud_in_world = filter.Points();
   map.navigation_grid =
@@ -49,8 +63,8 @@ SemanticMap SemanticMapper::Build(
 std::size_t SemanticMapper::MemoryBytes() const {
   std::size_t bytes = 0;
   for (const auto& [id, cloud] : clouds_) {
-    bytes += sizeof(KeyframeCloud) + cloud.points_in_camera.capacity() * sizeof(LabelledPoint) +
-             cloud.free_ends_in_camera.capacity() * sizeof(Eigen::Vector3f);
+    bytes += sizeof(KeyframeCloud) + cloud->points_in_camera.capacity() * sizeof(LabelledPoint) +
+             cloud->free_ends_in_camera.capacity() * sizeof(Eigen::Vector3f);
   }
   return bytes;
 }

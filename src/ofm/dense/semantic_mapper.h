@@ -20,8 +20,8 @@ struct SemanticMap {
   std::optional<NavigationGrid> navigation_grid = {};  ///< empty where no floor was found
 };
 
-/// A key frame's cloud where `world_from_camera` puts it.
-WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& world_from_camera);
+/// Which object each instance of a key frame is, by the instance's number; kNoInstance = none.
+using InstanceObjects = std::map<KeyframeId, std::vector<std::uint16_t>>;
 
 /// Keeps the small cloud of each key frame in its camera's frame, and builds the map from them when
 /// the poses are known: it is right after any loop closure. Not thread-safe.
@@ -37,9 +37,16 @@ class SemanticMapper {
   void RemoveKeyframe(KeyframeId id) { clouds_.erase(id); }
 
   /// Builds the whole map, key frames in the order of their ids. Key frames without a pose, or with
-  /// one that is not finite (logged), are left out. The cloud keeps only points in voxels that are
-  /// occupied in the end: what later rays cleared is in neither.
-  SemanticMap Build(const std::map<KeyframeId, RigidTransform>& world_from_camera) const;
+  /// one that is not usable (logged), are left out. The cloud keeps only points in voxels that are
+  /// occupied in the end: what later rays cleared is in neither. Its points are of an instance
+  /// where `objects` knows it.
+  SemanticMap Build(const KeyframePoseMap& world_from_camera,
+                    const InstanceObjects& objects = {}) const;
+  /// The same around the octree of these poses, which an OctreeIntegrator made.
+  SemanticMap Complete(SemanticOctree octree, const KeyframePoseMap& world_from_camera,
+                       const InstanceObjects& objects = {}) const;
+
+  const KeyframeClouds& clouds() const { return clouds_; }
 
   /// Key frames that are held.
   std::size_t size() const { return clouds_.size(); }
@@ -50,7 +57,7 @@ class SemanticMapper {
  private:
   DenseOptions options_;
   KeyframeCloudMaker cloud_maker_;
-  std::map<KeyframeId, KeyframeCloud> clouds_;
+  KeyframeClouds clouds_;
 };
 
 }  // namespace ofm

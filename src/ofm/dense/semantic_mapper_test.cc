@@ -15,7 +15,7 @@ namespace ofm {
 namespace {
 
 using test::At, test::Chair, test::Person, test::SmallCamera, test::Wall;
-using Poses = std::map<KeyframeId, RigidTransform>;
+using Poses = KeyframePoseMap;
 
 /// Where the person stood: half a voxel behind the front of Person(0).
 const Eigen::Vector3f kPersonPlace(0, 0, 1.525f);
@@ -158,6 +158,29 @@ TEST(SemanticMapper, TheOrderOfAddingDoesNotMatter) {
     return stream.str();
   };
   EXPECT_EQ(write({0, 1, 2}), write({2, 0, 1}));
+}
+
+TEST(SemanticMapper, PointsAreOfTheObjectThatTheirInstanceIs) {
+  SemanticMapper mapper(SmallCamera(), {});
+  Poses poses;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    LabelledFrame frame = Render({Wall(), Chair()}, i);
+    frame.instances = cv::Mat(frame.depth_m.size(), CV_16UC1, cv::Scalar(kNoInstance));
+    frame.instances.setTo(i, frame.class_ids == test::kChair);
+    mapper.AddKeyframe(frame);
+    poses[KeyframeId(i)] = RigidTransform();
+  }
+  // The chair is instance 0, 1 and 2; of the last frame's nothing became an object.
+  const InstanceObjects objects{{KeyframeId(0), {7}}, {KeyframeId(1), {3, 7}}};
+  std::size_t on_chair = 0;
+  for (const LabelledPoint& point : mapper.Build(poses, objects).cloud_in_world) {
+    EXPECT_EQ(point.instance, point.class_id == test::kChair ? 7 : kNoInstance);
+    on_chair += point.instance == 7;
+  }
+  EXPECT_GT(on_chair, 100u);
+  for (const LabelledPoint& point : mapper.Build(poses).cloud_in_world) {
+    EXPECT_EQ(point.instance, kNoInstance);
+  }
 }
 
 TEST(SemanticMapper, AFrameWithoutIdIsAProgrammersError) {

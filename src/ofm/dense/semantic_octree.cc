@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ofm/base/check.h"
 #include "ofm/dense/voxel_ray.h"
 
 namespace ofm {
@@ -19,17 +20,28 @@ std::uint8_t ToByte(float value) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
+/// True the first time.
+template <std::size_t kSize>
+bool Mark(std::bitset<kSize>& marks, int cell) {
+  const auto place = static_cast<std::size_t>(cell);
+  if (marks[place]) return false;
+  marks[place] = true;
+  return true;
+}
+
 }  // namespace
 
 SemanticOctree::Block::Block() { log_odds.fill(kUnknown); }
 
-SemanticOctree::SemanticOctree(double resolution_m, const OccupancyOptions& options)
+SemanticOctree::SemanticOctree(double resolution_m, const OccupancyOptions& options,
+                               double label_share)
     : resolution_m_(resolution_m),
       options_(options),
       hit_(LogOdds(options.probability_hit)),
       miss_(LogOdds(options.probability_miss)),
       min_(LogOdds(options.probability_min)),
-      max_(LogOdds(options.probability_max)) {
+      max_(LogOdds(options.probability_max)),
+      evidence_(resolution_m, label_share) {
   DenseOptions check;
   check.resolution_m = resolution_m;
   check.occupancy = options;
@@ -46,16 +58,6 @@ int SemanticOctree::CellOf(const VoxelIndex& voxel) {
          (voxel.z() & kMask);
 }
 
-inline bool SemanticOctree::MarkUpdated(Block& block, int cell) const {
-  if (block.updated_in != scan_) {
-    block.updated.reset();
-    block.updated_in = scan_;
-  }
-  if (block.updated[cell]) return false;
-  block.updated[cell] = true;
-  return true;
-}
-
 inline void SemanticOctree::Update(Block& block, int cell, float change) const {
   float& log_odds = block.log_odds[cell];
   log_odds = std::clamp((std::isnan(log_odds) ? 0 : log_odds) + change, min_, max_);
@@ -64,10 +66,17 @@ inline void SemanticOctree::Update(Block& block, int cell, float change) const {
   }
 }
 
-SemanticOctree::Block& SemanticOctree::BlockAt(const VoxelIndex& block) {
-  const std::uint32_t number = table_.Insert(block);
-  if (number == blocks_.size()) blocks_.emplace_back();
-  return blocks_[number];
+/// The block, made where it is new, with the marks of this scan.
+SemanticOctree::Block& SemanticOctree::TouchBlock(const VoxelIndex& index) {
+  const std::uint32_t number = table_.Insert(index);
+  if (number == blocks_.size()) blocks_.emplace_back().number = number;
+  Block& block = blocks_[number];
+  if (block.updated_in != scan_) {
+    block.updated.reset();
+    block.updated_in = scan_;
+    touched_.push_back(number);
+  }
+  return block;
 }
 
 void SemanticOctree::FuseSurface(Block& block, int cell, const LabelledPoint& point) {
@@ -79,48 +88,88 @@ void SemanticOctree::FuseSurface(Block& block, int cell, const LabelledPoint& po
   surface.points += 1;
   const Eigen::Vector3f color(point.color.r, point.color.g, point.color.b);
   surface.color += (color - surface.color) / surface.points;
-  surface.votes.Add(point.class_id, point.confidence);
+  surface.labels.Add(point.class_id, evidence_(point));
 }
 
+template <SemanticOctree::Pass kPass>
 std::vector<VoxelIndex> SemanticOctree::InsertHits(std::span<const LabelledPoint> points) {
   std::vector<VoxelIndex> hit_voxels;
   for (const LabelledPoint& point : points) {
     const std::optional<VoxelIndex> voxel = FindVoxel(point.position, 1 / resolution_m_);
     if (!voxel) continue;
-    Block& block = BlockAt(BlockOf(*voxel));
+    Block& block = TouchBlock(BlockOf(*voxel));
+    const bool changes = kPass == Pass::kAll || (kPass == Pass::kRebuilt && block.rebuilds);
     const int cell = CellOf(*voxel);
-    if (MarkUpdated(block, cell)) {
-      Update(block, cell, hit_);
+    if (Mark(block.updated, cell)) {
+      if (changes) Update(block, cell, hit_);
       hit_voxels.push_back(*voxel);
     }
-    FuseSurface(block, cell, point);
+    if (changes) FuseSurface(block, cell, point);
   }
   return hit_voxels;
 }
 
+template <SemanticOctree::Pass kPass>
 void SemanticOctree::InsertMisses(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
   VoxelIndex last = VoxelIndex::Constant(std::numeric_limits<int>::max());  // in no block
   Block* block = nullptr;
   TraverseRay(origin, end, resolution_m_, [&](const VoxelIndex& voxel) {
     const int changed_bits =
         (voxel.x() ^ last.x()) | (voxel.y() ^ last.y()) | (voxel.z() ^ last.z());
-    if (changed_bits >> kBlockBits != 0) block = &BlockAt(BlockOf(voxel));
+    if (changed_bits >> kBlockBits != 0) block = &TouchBlock(BlockOf(voxel));
     last = voxel;
+    if (kPass == Pass::kNothing || (kPass == Pass::kRebuilt && !block->rebuilds)) return;
     const int cell = CellOf(voxel);
-    if (MarkUpdated(*block, cell)) Update(*block, cell, miss_);
+    if (Mark(block->updated, cell)) Update(*block, cell, miss_);
   });
 }
 
-bool SemanticOctree::InsertScan(const WorldScan& scan) {
+template <SemanticOctree::Pass kPass>
+bool SemanticOctree::Insert(const WorldScan& scan) {
   if (!FindVoxel(scan.origin, 1 / resolution_m_)) return false;
   ++scan_;
-  for (const VoxelIndex& voxel : InsertHits(scan.points)) {
-    InsertMisses(scan.origin, VoxelCenter(voxel, resolution_m_));
+  for (const VoxelIndex& voxel : InsertHits<kPass>(scan.points)) {
+    InsertMisses<kPass>(scan.origin, VoxelCenter(voxel, resolution_m_));
   }
   for (const Eigen::Vector3f& end : scan.free_ends) {
-    if (FindVoxel(end, 1 / resolution_m_)) InsertMisses(scan.origin, end);
+    if (FindVoxel(end, 1 / resolution_m_)) InsertMisses<kPass>(scan.origin, end);
   }
   return true;
+}
+
+bool SemanticOctree::InsertScan(const WorldScan& scan) {
+  touched_.clear();
+  return rebuilt_ ? Insert<Pass::kRebuilt>(scan) : Insert<Pass::kAll>(scan);
+}
+
+std::vector<std::uint32_t> SemanticOctree::FindBlocks(const WorldScan& scan) {
+  touched_.clear();
+  Insert<Pass::kNothing>(scan);
+  return touched_;
+}
+
+void SemanticOctree::BeginRebuild(std::span<const std::uint32_t> blocks) {
+  OFM_CHECK(!rebuilt_);
+  rebuilt_.emplace(blocks.begin(), blocks.end());
+  for (const std::uint32_t number : *rebuilt_) {
+    OFM_CHECK(number < blocks_.size());
+    blocks_[number] = Block();
+    blocks_[number].number = number;
+    blocks_[number].rebuilds = true;
+  }
+}
+
+void SemanticOctree::EndRebuild() {
+  OFM_CHECK(rebuilt_);
+  for (const std::uint32_t number : *rebuilt_) blocks_[number].rebuilds = false;
+  rebuilt_.reset();
+}
+
+bool SemanticOctree::empty() const {
+  const auto is_known = [](float log_odds) { return !std::isnan(log_odds); };
+  return std::none_of(blocks_.begin(), blocks_.end(), [&](const Block& block) {
+    return std::any_of(block.log_odds.begin(), block.log_odds.end(), is_known);
+  });
 }
 
 SemanticVoxel SemanticOctree::VoxelAt(const Block& block, int cell) {
@@ -128,8 +177,8 @@ SemanticVoxel SemanticOctree::VoxelAt(const Block& block, int cell) {
   if (block.surface[cell] == 0) return voxel;
   const Surface& surface = block.surfaces[block.surface[cell] - 1];
   voxel.color = {ToByte(surface.color[0]), ToByte(surface.color[1]), ToByte(surface.color[2])};
-  voxel.class_id = surface.votes.Best();
-  voxel.confidence = surface.votes.Confidence();
+  voxel.class_id = surface.labels.Best();
+  voxel.confidence = surface.labels.Confidence();
   return voxel;
 }
 

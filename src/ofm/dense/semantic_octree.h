@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ofm/dense/dense_options.h"
-#include "ofm/dense/label_votes.h"
+#include "ofm/dense/label_belief.h"
 #include "ofm/dense/labelled_point.h"
 #include "ofm/dense/voxel_table.h"
 
@@ -22,7 +22,7 @@ struct SemanticVoxel {
   float log_odds = 0;  ///< of being occupied
   Rgb color;           ///< mean of the points in it; black where none fell in
   std::uint8_t class_id = kNoLabel;
-  std::uint8_t confidence = 0;  ///< of class_id, 255 = sure
+  std::uint8_t confidence = 0;  ///< probability of class_id, 255 = sure
 
   /// More likely occupied than not, as OctoMap's default.
   bool IsOccupied() const { return log_odds >= 0; }
@@ -37,16 +37,28 @@ struct WorldScan {
 
 /// The map of voxels that becomes an OctoMap file (octree_file.h). In memory it is no tree but a
 /// hash table of blocks of 8 x 8 x 8 voxels, which the rays cross several times faster; the
-/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives.
+/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives. Labels are
+/// fused by Bayes' rule (LabelBelief).
 class SemanticOctree {
  public:
-  SemanticOctree(double resolution_m, const OccupancyOptions& options);
+  /// Each labelled point counts as `label_share` of an observation (PointEvidence).
+  SemanticOctree(double resolution_m, const OccupancyOptions& options, double label_share = 1);
 
   /// Fuses a scan. Each voxel is updated once: as hit where a point is in it, else as missed where
   /// a ray crosses it. There is one ray per voxel with points, to its centre. A voxel that has
   /// become as free as can be forgets colour and label. Returns false, and changes nothing, where
   /// the origin is not finite or beyond the grid's limits; such points are left out.
   bool InsertScan(const WorldScan& scan);
+
+  /// The blocks of voxels that the last scan hit or crossed, by number; each once.
+  const std::vector<std::uint32_t>& touched_blocks() const { return touched_; }
+  /// The blocks that inserting the scan would touch; changes nothing that is known.
+  std::vector<std::uint32_t> FindBlocks(const WorldScan& scan);
+  /// Forgets all that is known in these blocks. Until EndRebuild scans change these alone: after
+  /// the scans that touched them were inserted again, in the order of old, all voxels are as if
+  /// only these scans had ever been.
+  void BeginRebuild(std::span<const std::uint32_t> blocks);
+  void EndRebuild();
 
   /// Empty where no ray has been, or outside the grid's limits.
   std::optional<SemanticVoxel> Find(const VoxelIndex& voxel) const;
@@ -60,7 +72,8 @@ class SemanticOctree {
 
   double resolution_m() const { return resolution_m_; }
   const OccupancyOptions& options() const { return options_; }
-  bool empty() const { return blocks_.empty(); }
+  /// True where nothing is known.
+  bool empty() const;
   std::size_t MemoryBytes() const;
 
  private:
@@ -71,7 +84,7 @@ class SemanticOctree {
   struct Surface {
     Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean
     float points = 0;
-    LabelVotes votes;
+    LabelBelief labels;
   };
   struct Block {
     Block();
@@ -80,25 +93,35 @@ class SemanticOctree {
     std::vector<Surface> surfaces;
     std::bitset<kBlockVoxels> updated;  // in scan `updated_in`
     std::uint32_t updated_in = 0;
+    std::uint32_t number = 0;
+    bool rebuilds = false;
   };
+  /// What a scan may change.
+  enum class Pass { kAll, kRebuilt, kNothing };
 
   static VoxelIndex BlockOf(const VoxelIndex& voxel);
   static int CellOf(const VoxelIndex& voxel);
   static SemanticVoxel VoxelAt(const Block& block, int cell);
 
-  Block& BlockAt(const VoxelIndex& block);
+  Block& TouchBlock(const VoxelIndex& block);
   void FuseSurface(Block& block, int cell, const LabelledPoint& point);
+  template <Pass kPass>
+  bool Insert(const WorldScan& scan);
+  template <Pass kPass>
   std::vector<VoxelIndex> InsertHits(std::span<const LabelledPoint> points);
+  template <Pass kPass>
   void InsertMisses(const Eigen::Vector3f& origin, const Eigen::Vector3f& end);
-  bool MarkUpdated(Block& block, int cell) const;
   void Update(Block& block, int cell, float change) const;
 
   double resolution_m_;
   OccupancyOptions options_;
   float hit_, miss_, min_, max_;  // log-odds
+  PointEvidence evidence_;
   std::uint32_t scan_ = 0;
   VoxelTable table_;          // block coordinates to number in blocks_
   std::deque<Block> blocks_;  // references to blocks stay valid
+  std::vector<std::uint32_t> touched_;
+  std::optional<std::vector<std::uint32_t>> rebuilt_;  // between BeginRebuild and EndRebuild
 };
 
 }  // namespace ofm

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -119,13 +120,33 @@ TEST(SemanticOctree, RaysToFreeEndsFillNothing) {
 
 TEST(SemanticOctree, LabelsAndColorsAreFused) {
   SemanticOctree octree(kResolution_m, {});
-  octree.InsertScan({kOrigin, {{kEnd, {100, 0, 10}, 3, 100}}, {}});
+  octree.InsertScan({kOrigin, {{kEnd, {100, 0, 10}, 3, 51}}, {}});
   octree.InsertScan({kOrigin, {{kEnd, {200, 1, 10}, 5, 250}}, {}});
-  octree.InsertScan({kOrigin, {{kEnd, {150, 2, 10}, 3, 100}}, {}});
+  EXPECT_EQ(octree.Find(kEnd)->class_id, 5);
+  octree.InsertScan({kOrigin, {{kEnd, {150, 2, 10}, 3, 204}}, {}});
   const SemanticVoxel voxel = *octree.Find(kEnd);
-  EXPECT_EQ(voxel.class_id, 5);
-  EXPECT_EQ(voxel.confidence, 83);  // 250 / 3
+  EXPECT_EQ(voxel.class_id, 3);
+  // Two doubtful views agree: .25 x 80 x 4 x 80 against 50 x 80 and 79 others.
+  EXPECT_EQ(voxel.confidence, std::lround(255 * 6400. / (6400 + 4000 + 79)));
   EXPECT_EQ(voxel.color, (Rgb{150, 1, 10}));
+}
+
+TEST(SemanticOctree, LabelsOfUncertainDepthCountLess) {
+  const auto fused = [](float precision) {
+    SemanticOctree octree(kResolution_m, {});
+    octree.InsertScan({kOrigin, {{kEnd, {}, 3, 128}}, {}});
+    octree.InsertScan({kOrigin, {{kEnd, {}, 5, 230, precision}}, {}});
+    return octree.Find(kEnd)->class_id;
+  };
+  EXPECT_EQ(fused(1e6f), 5);
+  EXPECT_EQ(fused(1 / (.08f * .08f)), 3);  // +- 8 cm in a voxel of 10 cm
+}
+
+TEST(SemanticOctree, PointsOfOneViewCanShareAnObservation) {
+  SemanticOctree octree(kResolution_m, {}, .25);
+  octree.InsertScan({kOrigin, std::vector<LabelledPoint>(4, {kEnd, {}, 3, 204}), {}});
+  EXPECT_EQ(octree.Find(kEnd)->class_id, 3);
+  EXPECT_EQ(octree.Find(kEnd)->confidence, 204);
 }
 
 TEST(SemanticOctree, VoxelsComeInAnOrderThatDoesNotDependOnTheScans) {
@@ -150,6 +171,60 @@ TEST(SemanticOctree, WhatIsOutsideTheGridIsLeftOut) {
   EXPECT_TRUE(octree.empty());
   EXPECT_FALSE(octree.Find(Eigen::Vector3f(kNan, 0, 0)));
   EXPECT_FALSE(octree.Find(VoxelIndex(40000, 0, 0)));
+}
+
+std::vector<float> Occupancies(const SemanticOctree& octree) {
+  std::vector<float> values;
+  octree.ForEach([&](const VoxelIndex& v, const SemanticVoxel& voxel) {
+    for (const int coordinate : v) values.push_back(static_cast<float>(coordinate));
+    values.insert(values.end(), {voxel.log_odds, static_cast<float>(voxel.class_id),
+                                 static_cast<float>(voxel.confidence)});
+  });
+  return values;
+}
+
+TEST(SemanticOctree, BlocksCanBeRebuiltWithoutAScan) {
+  SemanticOctree octree(kResolution_m, {}), wanted(kResolution_m, {});
+  std::vector<std::uint32_t> blocks;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    octree.InsertScan(RandomScan(seed));
+    if (seed == 1) blocks = octree.touched_blocks();
+    if (seed != 1) wanted.InsertScan(RandomScan(seed));
+  }
+  EXPECT_NE(Occupancies(octree), Occupancies(wanted));
+  octree.BeginRebuild(blocks);
+  for (const std::uint64_t seed : {0, 2, 3, 4}) octree.InsertScan(RandomScan(seed));
+  octree.EndRebuild();
+  EXPECT_EQ(Occupancies(octree), Occupancies(wanted));
+  octree.InsertScan(RandomScan(9));
+  wanted.InsertScan(RandomScan(9));
+  EXPECT_EQ(Occupancies(octree), Occupancies(wanted));
+}
+
+TEST(SemanticOctree, OnlyTheBlocksNamedAreRebuilt) {
+  SemanticOctree octree(kResolution_m, {});
+  octree.InsertScan(RandomScan(0));
+  octree.BeginRebuild(octree.FindBlocks(ScanTo(kEnd)));
+  EXPECT_FALSE(octree.Find(kEnd));
+  const Eigen::Vector3f far(3.05f, .05f, .05f);
+  octree.InsertScan(ScanTo(far));
+  octree.EndRebuild();
+  EXPECT_TRUE(octree.Find(kEnd)) << "it lies on the way";
+  EXPECT_FALSE(octree.IsOccupied(far));
+}
+
+TEST(SemanticOctree, FindingBlocksChangesNothing) {
+  SemanticOctree octree(kResolution_m, {});
+  const std::vector<std::uint32_t> blocks = octree.FindBlocks(ScanTo(kEnd));
+  EXPECT_EQ(blocks.size(), 2u);  // of 0.8 m
+  EXPECT_TRUE(octree.empty());
+  octree.InsertScan(ScanTo(kEnd));
+  std::vector<std::uint32_t> touched = octree.touched_blocks();
+  std::sort(touched.begin(), touched.end());
+  EXPECT_EQ(touched, (std::vector<std::uint32_t>{0, 1}));
+  octree.BeginRebuild(blocks);
+  octree.EndRebuild();
+  EXPECT_TRUE(octree.empty());
 }
 
 TEST(SemanticOctree, MemoryGrowsWithTheMap) {

@@ -2,31 +2,45 @@
 
 namespace ofm {
 
-void VoxelFilter::Add(const LabelledPoint& point) {
+void InstanceVotes::Add(std::uint16_t instance) {
+  if (lead_ == 0) instance_ = instance;
+  lead_ += instance == instance_ ? 1 : -1;
+}
+
+template <class Labels, class Weight>
+void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point) {
   const std::optional<VoxelIndex> voxel = FindVoxel(point.position, voxels_per_metre_);
   if (!voxel) return;
   const std::uint32_t number = table_.Insert(*voxel);
   if (number == sums_.size()) sums_.emplace_back();
   Sum& sum = sums_[number];
-  sum.position += point.position.cast<double>();
+  sum.position += static_cast<double>(point.precision) * point.position.template cast<double>();
   sum.color += Eigen::Vector3i(point.color.r, point.color.g, point.color.b);
+  sum.precision += point.precision;
   ++sum.count;
-  sum.votes.Add(point.class_id, point.confidence);
+  sum.labels.Add(point.class_id, weight_(point));
+  sum.instances.Add(point.instance);
 }
 
-std::vector<LabelledPoint> VoxelFilter::Points() const {
+template <class Labels, class Weight>
+std::vector<LabelledPoint> BasicVoxelFilter<Labels, Weight>::Points() const {
   std::vector<LabelledPoint> points;
   points.reserve(sums_.size());
   for (const Sum& sum : sums_) {
     const auto mean = [&](int channel) {
       return static_cast<std::uint8_t>((sum.color[channel] + sum.count / 2) / sum.count);
     };
-    points.push_back({(sum.position / sum.count).cast<float>(),
+    points.push_back({(sum.position / sum.precision).template cast<float>(),
                       {mean(0), mean(1), mean(2)},
-                      sum.votes.Best(),
-                      sum.votes.Confidence()});
+                      sum.labels.Best(),
+                      sum.labels.Confidence(),
+                      static_cast<float>(sum.precision / sum.count),
+                      sum.labels.Best() == kNoLabel ? kNoInstance : sum.instances.Best()});
   }
   return points;
 }
+
+template class BasicVoxelFilter<LabelVotes, PointConfidence>;
+template class BasicVoxelFilter<LabelBelief, PointEvidence>;
 
 }  // namespace ofm

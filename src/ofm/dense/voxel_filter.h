@@ -3,17 +3,39 @@
 
 #include <vector>
 
+#include "ofm/dense/label_belief.h"
 #include "ofm/dense/label_votes.h"
 #include "ofm/dense/labelled_point.h"
 #include "ofm/dense/voxel_table.h"
 
 namespace ofm {
 
-/// Gathers points in voxels and gives one point per voxel: mean position, mean colour, and the
-/// label with most confidence.
-class VoxelFilter {
+/// A point's confidence as it stands.
+struct PointConfidence {
+  explicit PointConfidence(double /*resolution_m*/) {}
+  std::uint8_t operator()(const LabelledPoint& point) const { return point.confidence; }
+};
+
+/// The instance of a voxel: one that most of its points are of is always found (Boyer and Moore,
+/// "MJRTY: a fast majority vote algorithm", 1981).
+class InstanceVotes {
  public:
-  explicit VoxelFilter(double resolution_m) : voxels_per_metre_(1 / resolution_m) {}
+  void Add(std::uint16_t instance);
+  std::uint16_t Best() const { return instance_; }
+
+ private:
+  std::uint16_t instance_ = kNoInstance;
+  int lead_ = 0;
+};
+
+/// Gathers points in voxels and gives one point per voxel: the mean of their positions weighted by
+/// their precision, mean colour and precision, one label, and where it has one the instance of most
+/// points.
+template <class Labels, class Weight>
+class BasicVoxelFilter {
+ public:
+  explicit BasicVoxelFilter(double resolution_m)
+      : voxels_per_metre_(1 / resolution_m), weight_(resolution_m) {}
 
   /// Points that are not finite or beyond the grid's limits are left out.
   void Add(const LabelledPoint& point);
@@ -25,13 +47,26 @@ class VoxelFilter {
   struct Sum {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3i color = Eigen::Vector3i::Zero();
+    double precision = 0;
     int count = 0;
-    LabelVotes votes;
+    Labels labels;
+    InstanceVotes instances;
   };
 
   double voxels_per_metre_;
+  Weight weight_;
   VoxelTable table_;
   std::vector<Sum> sums_;
 };
+
+/// For points of one view, which are not independent: the label with most confidence, and its mean
+/// confidence.
+using VoxelFilter = BasicVoxelFilter<LabelVotes, PointConfidence>;
+
+/// For points of many views: labels by Bayes' rule.
+using ViewVoxelFilter = BasicVoxelFilter<LabelBelief, PointEvidence>;
+
+extern template class BasicVoxelFilter<LabelVotes, PointConfidence>;
+extern template class BasicVoxelFilter<LabelBelief, PointEvidence>;
 
 }  // namespace ofm

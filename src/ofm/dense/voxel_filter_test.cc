@@ -19,6 +19,42 @@ TEST(VoxelFilter, PointsOfAVoxelBecomeTheirMean) {
   EXPECT_EQ(points[0].confidence, 150);
 }
 
+TEST(VoxelFilter, PreciseDepthCountsMore) {
+  VoxelFilter filter(.1);
+  filter.Add({{.01f, 0, .02f}, {}, 5, 200, 3e4f});
+  filter.Add({{.05f, 0, .06f}, {}, 5, 200, 1e4f});
+  const auto points = filter.Points();
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_TRUE(points[0].position.isApprox(Eigen::Vector3f(.02f, 0, .03f)));
+  EXPECT_FLOAT_EQ(points[0].precision, 2e4f);
+}
+
+TEST(VoxelFilter, TheLabelOfOneViewIsVotedAndOfManyViewsBelieved) {
+  VoxelFilter one_view(.1);
+  ViewVoxelFilter views(.1);
+  for (int i = 0; i < 3; ++i) {
+    one_view.Add({{0, 0, 0}, {}, 5, 200});
+    views.Add({{0, 0, 0}, {}, 5, 200});
+  }
+  EXPECT_EQ(one_view.Points()[0].class_id, 5);
+  EXPECT_EQ(one_view.Points()[0].confidence, 200);
+  EXPECT_EQ(views.Points()[0].class_id, 5);
+  EXPECT_EQ(views.Points()[0].confidence, 255);
+}
+
+TEST(VoxelFilter, TheInstanceOfMostPointsIsKeptWhereThereIsALabel) {
+  VoxelFilter filter(.1);
+  for (const std::uint16_t instance : {9, 2, 2, 9, 2}) {
+    filter.Add({{.01f, 0, 0}, {}, 5, 200, 1e6f, instance});
+  }
+  filter.Add({{.11f, 0, 0}, {}, 5, 10, 1e6f, 4});
+  filter.Add({{.11f, 0, 0}, {}, kNoLabel, 128});
+  const auto points = filter.Points();
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].instance, 2);
+  EXPECT_EQ(points[1].instance, kNoInstance);
+}
+
 TEST(VoxelFilter, VoxelsComeInTheOrderOfTheirFirstPoints) {
   VoxelFilter filter(.1);
   filter.Add({{.95f, 0, 0}, {}, 1, 1});

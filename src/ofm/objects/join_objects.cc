@@ -15,7 +15,8 @@ std::vector<PlacedObservation> PlaceObservations(KeyframeId id, const KeyframeOb
                                                  const RigidTransform& world_from_camera) {
   std::vector<PlacedObservation> placed;
   for (const ObjectObservation& seen : keyframe.observations) {
-    PlacedObservation observation{id, keyframe.stamp_ns, seen.class_id, seen.score, seen.color, {}};
+    PlacedObservation observation{id, keyframe.stamp_ns, seen.class_id, seen.score, seen.color,
+                                  {}, seen.instance};
     for (const Eigen::Vector3f& point : seen.points_in_camera) {
       observation.points_in_world.push_back(
           (world_from_camera * point.cast<double>().eval()).cast<float>());
@@ -95,6 +96,7 @@ SceneObject Describe(const ObjectHypothesis& hypothesis, const Eigen::Vector3d& 
   for (const PlacedObservation& seen : hypothesis.observations()) {
     object.first_seen_ns = std::min(object.first_seen_ns, seen.stamp_ns);
     object.last_seen_ns = std::max(object.last_seen_ns, seen.stamp_ns);
+    object.sightings.push_back({seen.keyframe, seen.instance});
   }
   object.views = static_cast<int>(hypothesis.views().size());
   for (const auto& [id, score] : hypothesis.views()) object.confidence += score;

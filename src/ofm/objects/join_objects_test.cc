@@ -42,6 +42,9 @@ TEST(JoinObjects, TellsWhatAnObjectIsAndWhereItStands) {
   EXPECT_EQ(chair.last_seen_ns, 7'000'000'000);
   EXPECT_EQ(chair.color, test::kRed);
   EXPECT_GT(chair.point_count, 500);
+  ASSERT_EQ(chair.sightings.size(), 8U);
+  EXPECT_EQ(chair.sightings[3].keyframe, KeyframeId(3));
+  EXPECT_EQ(chair.sightings[3].instance, 0U);
 }
 
 TEST(JoinObjects, NeighboursOfOneClassStayTwoAndPartialViewsAreOne) {

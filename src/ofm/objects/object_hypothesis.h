@@ -20,6 +20,7 @@ struct PlacedObservation {
   float score = 0;
   Rgb color;
   std::vector<Eigen::Vector3f> points_in_world;
+  std::size_t instance = 0;  ///< its place among the key frame's instances
 };
 
 /// Where a hypothesis is.

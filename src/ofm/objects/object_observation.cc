@@ -18,13 +18,15 @@ KeyframeObjects ObjectObserver::Observe(const InstanceFrame& frame) const {
   OFM_CHECK(frame.depth_m.cols == camera_.width && frame.depth_m.rows == camera_.height);
   KeyframeObjects seen{frame.stamp_ns, SketchDepth(frame.depth_m), {}};
   const cv::Mat smooth = FindSmoothPixels(frame.depth_m, {});
-  for (const Instance& instance : frame.instances) {
+  for (std::size_t place = 0; place < frame.instances.size(); ++place) {
+    const Instance& instance = frame.instances[place];
     if (instance.score < options_.min_score) continue;
     if (!StandsStill(instance, frame.dynamic_mask)) continue;
     ObjectObservation observation = ObserveInstance(instance, frame, smooth);
     if (observation.points_in_camera.size() < static_cast<std::size_t>(options_.min_points)) {
       continue;
     }
+    observation.instance = place;
     seen.observations.push_back(std::move(observation));
   }
   return seen;

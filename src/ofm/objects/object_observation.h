@@ -31,6 +31,7 @@ struct ObjectObservation {
   float score = 0;
   std::vector<Eigen::Vector3f> points_in_camera;  ///< [m]
   Rgb color;                                      ///< mean
+  std::size_t instance = 0;                       ///< its place among the frame's instances
 };
 
 /// What is kept of a key frame; it stays good whatever becomes of the key frame's pose.

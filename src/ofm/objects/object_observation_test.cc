@@ -30,6 +30,7 @@ TEST(ObjectObserver, KeepsTheInstancesSurfaceWithItsColour) {
   const ObjectObservation& chair = seen.observations[0];
   EXPECT_EQ(chair.class_id, ClassId(test::kChair));
   EXPECT_EQ(chair.color, test::kRed);
+  EXPECT_EQ(chair.instance, 0U);
   EXPECT_GT(chair.points_in_camera.size(), 300U) << "0.5 m x 0.6 m in steps of 2 cm";
   for (const Eigen::Vector3f& point : chair.points_in_camera) {
     EXPECT_TRUE(point.x() > .39F && point.x() < .91F && std::abs(point.z() - 2.02F) < .02F)

@@ -21,6 +21,12 @@ struct ClassProbability {
   friend bool operator==(const ClassProbability&, const ClassProbability&) = default;
 };
 
+/// A detection of an object: its place among the instances of a key frame.
+struct ObjectSighting {
+  KeyframeId keyframe;
+  std::size_t instance = 0;
+};
+
 /// Something that stands still, joined from what key frames saw of it.
 struct SceneObject {
   ObjectId id;                                       ///< by increasing first sight
@@ -33,6 +39,7 @@ struct SceneObject {
   double confidence = 0;   ///< mean score over these, 0 where it was missed
   int point_count = 0;     ///< of its cloud, one per voxel of point_spacing_m
   Rgb color;               ///< mean
+  std::vector<ObjectSighting> sightings = {};  ///< in this run; no file keeps them
 
   ClassId class_id() const { return classes.empty() ? ClassId() : classes.front().class_id; }
 };

@@ -42,6 +42,17 @@ TEST(LabelImage, MoreConfidentInstanceWinsWhateverTheOrder) {
   }
 }
 
+TEST(LabelImage, PixelsKnowThePlaceOfTheirInstanceInTheList) {
+  Segmentation segmentation;
+  segmentation.instances = {MakeInstance(1, .5f, {2, 2, 10, 10}),
+                            MakeInstance(1, .9f, {8, 2, 10, 10})};
+  const cv::Mat instances = ComposeLabelImage(segmentation, {30, 20}).instances;
+  ASSERT_EQ(instances.type(), CV_16UC1);
+  EXPECT_EQ(instances.at<std::uint16_t>(4, 4), 0);
+  EXPECT_EQ(instances.at<std::uint16_t>(4, 9), 1);
+  EXPECT_EQ(instances.at<std::uint16_t>(15, 25), kNoInstance);
+}
+
 TEST(LabelImage, FirstOfEquallyConfidentInstancesWins) {
   const Segmentation segmentation{
       FrameId(0), {MakeInstance(1, 1.0F, {0, 0, 9, 9}), MakeInstance(2, 1.0F, {0, 0, 9, 9})}};

@@ -12,6 +12,7 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
   labelled.depth_m = prepared.frame.depth_m;
   labelled.class_ids = labels.labels;
   labelled.confidence = labels.confidence;
+  labelled.instances = labels.instances;
   labelled.dynamic_mask =
       prepared.dynamic.unmapped.empty() ? prepared.dynamic.mask : prepared.dynamic.unmapped;
   return labelled;
@@ -27,10 +28,27 @@ InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared) {
   return frame;
 }
 
+InstanceObjects FindInstanceObjects(std::span<const SceneObject> objects) {
+  InstanceObjects found;
+  for (const SceneObject& object : objects) {
+    for (const ObjectSighting& sighting : object.sightings) {
+      std::vector<std::uint16_t>& of_instance = found[sighting.keyframe];
+      if (of_instance.size() <= sighting.instance) {
+        of_instance.resize(sighting.instance + 1, kNoInstance);
+      }
+      of_instance[sighting.instance] = static_cast<std::uint16_t>(object.id.value);
+    }
+  }
+  return found;
+}
+
 BackEnd::BackEnd(Slam& slam, LoopAdjustment adjustment)
     : slam_(slam),
       adjustment_(adjustment),
-      background_(slam.model(), slam.options().mapping.final_bundle) {}
+      background_(slam.model(), slam.options().mapping.final_bundle),
+      octree_(slam.options().dense, adjustment == LoopAdjustment::kAtOnce
+                                        ? UpkeepThread::kCaller
+                                        : UpkeepThread::kBackground) {}
 
 std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   KeyframeId id;
@@ -65,7 +83,20 @@ std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
   std::shared_ptr<const MapSnapshot> map = slam_.mapper().Snapshot();
   if (slam_.options().loop.enabled) map = CloseLoops(std::move(map));
   is_whole_ = true;
+  KeepUpOctree(*map);
   return map;
+}
+
+void BackEnd::KeepUpOctree(const MapSnapshot& map) {
+  const SlamOptions& options = slam_.options();
+  if (!options.build_semantic_map) return;
+  if (options.dense.octree.upkeep != OctreeUpkeepTime::kWhileRunning) return;
+  octree_.Update(slam_.semantic_mapper().clouds(), KeyframePoses(map, ResultSubmap(map)));
+}
+
+/// Whose world the results are in.
+SubmapId BackEnd::ResultSubmap(const MapSnapshot& map) const {
+  return slam_.loaded_submap().valid() ? slam_.loaded_submap() : LargestSubmap(map);
 }
 
 /// Looks for loops at the keyframes that are new; gives the snapshot after them.
@@ -118,8 +149,7 @@ void BackEnd::TakeAdjustment(std::optional<FinishedAdjustment> finished) {
 
 void BackEnd::Finish(RunOutcome& outcome) {
   outcome.map = slam_.mapper().Snapshot();
-  outcome.submap =
-      slam_.loaded_submap().valid() ? slam_.loaded_submap() : LargestSubmap(*outcome.map);
+  outcome.submap = ResultSubmap(*outcome.map);
   outcome.loops = loops_;
   outcome.loop_counts = slam_.loop_closer().counts();
   outcome.map_is_whole = is_whole_;
@@ -135,23 +165,32 @@ void BackEnd::Finish(RunOutcome& outcome) {
     slam_.mapper().AdjustAll();
     outcome.map = slam_.mapper().Snapshot();
   }
-  if (slam_.options().localize_only) return;
-  const std::map<KeyframeId, RigidTransform> poses = KeyframePoses(*outcome.map, outcome.submap);
-  if (slam_.options().build_semantic_map) {
-    ScopedStageTimer timer(times_, "semantic_map");
-    outcome.semantic_map = slam_.semantic_mapper().Build(poses);
-  }
+  if (!slam_.options().localize_only) FinishMaps(outcome);
+}
+
+/// Objects, and the semantic map whose points know them.
+void BackEnd::FinishMaps(RunOutcome& outcome) {
+  const KeyframePoseMap poses = KeyframePoses(*outcome.map, outcome.submap);
   if (slam_.makes_objects()) {
     ScopedStageTimer timer(times_, "objects");
     outcome.objects = slam_.object_mapper().Build(poses);
     outcome.objects->class_names = slam_.front_end().class_names();
   }
+  if (!slam_.options().build_semantic_map) return;
+  {
+    ScopedStageTimer timer(times_, "semantic_map");
+    const SemanticMapper& mapper = slam_.semantic_mapper();
+    SemanticOctree octree = octree_.Finish(mapper.clouds(), poses);
+    const InstanceObjects objects =
+        outcome.objects ? FindInstanceObjects(outcome.objects->objects) : InstanceObjects();
+    outcome.semantic_map = mapper.Complete(std::move(octree), poses, objects);
+  }
+  times_.Merge(octree_.times());
 }
 
 /// Those of this run whose place in the sub-map's world is known: world_from_camera.
-std::map<KeyframeId, RigidTransform> BackEnd::KeyframePoses(const MapSnapshot& map,
-                                                            SubmapId submap) const {
-  std::map<KeyframeId, RigidTransform> poses;
+KeyframePoseMap BackEnd::KeyframePoses(const MapSnapshot& map, SubmapId submap) const {
+  KeyframePoseMap poses;
   for (const auto& [frame, keyframe] : keyframe_of_frame_) {
     const auto pose = map.FindKeyframePose(keyframe);
     if (pose && map.FindSubmap(keyframe) == submap) poses[keyframe] = pose->Inverse();

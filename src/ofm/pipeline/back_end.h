@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "ofm/base/timing.h"
 #include "ofm/pipeline/background_adjustment.h"
+#include "ofm/pipeline/octree_upkeep.h"
 #include "ofm/pipeline/run_outcome.h"
 #include "ofm/pipeline/slam.h"
 
@@ -24,7 +26,10 @@ LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
 /// The images and instances of a frame as objects are made of them.
 InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared);
 
-/// When the whole map is adjusted after a loop.
+/// Which object each instance of each key frame became.
+InstanceObjects FindInstanceObjects(std::span<const SceneObject> objects);
+
+/// When the whole map is adjusted after a loop, and the octree brought up to the map.
 enum class LoopAdjustment {
   kAtOnce,        ///< before the next keyframe: reproducible
   kInBackground,  ///< while further keyframes come; a newer loop cancels it
@@ -56,12 +61,16 @@ class BackEnd {
   std::shared_ptr<const MapSnapshot> CloseLoops(std::shared_ptr<const MapSnapshot> map);
   void Apply(const LoopClosure& closure, const MapSnapshot& map);
   void AdjustAfterLoop();
-  std::map<KeyframeId, RigidTransform> KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
+  KeyframePoseMap KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
+  SubmapId ResultSubmap(const MapSnapshot& map) const;
+  void KeepUpOctree(const MapSnapshot& map);
+  void FinishMaps(RunOutcome& outcome);
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);
 
   Slam& slam_;
   LoopAdjustment adjustment_;
   BackgroundAdjustment background_;
+  OctreeUpkeep octree_;
   std::vector<KeyframeId> unseen_;  // keyframes in which no loop was looked for yet
   std::vector<LoopRecord> loops_;
   StageTimes times_;

@@ -7,6 +7,18 @@
 namespace ofm {
 namespace {
 
+TEST(FindInstanceObjects, NamesTheObjectOfEachInstanceThatBecameOne) {
+  SceneObject cup, chair;
+  cup.id = ObjectId(0), chair.id = ObjectId(1);
+  cup.sightings = {{KeyframeId(3), 2}};
+  chair.sightings = {{KeyframeId(3), 0}, {KeyframeId(5), 1}};
+  const std::vector<SceneObject> scene{cup, chair};
+  const InstanceObjects objects = FindInstanceObjects(scene);
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects.at(KeyframeId(3)), (std::vector<std::uint16_t>{1, kNoInstance, 0}));
+  EXPECT_EQ(objects.at(KeyframeId(5)), (std::vector<std::uint16_t>{kNoInstance, 1}));
+}
+
 using testing::Contains;
 using testing::Key;
 using testing::Not;

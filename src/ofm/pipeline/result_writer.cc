@@ -10,6 +10,7 @@
 #include "ofm/base/error.h"
 #include "ofm/base/time.h"
 #include "ofm/dense/octree_file.h"
+#include "ofm/dense/pcd_file.h"
 #include "ofm/dense/ply_file.h"
 #include "ofm/io/atomic_file.h"
 #include "ofm/io/trajectory_file.h"
@@ -129,13 +130,31 @@ double PeakMemoryMib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+/// In the formats wanted; one of an earlier run in another is removed.
+void WriteCloud(const std::filesystem::path& folder, const SemanticMap& map,
+                const CloudFileOptions& options, const std::vector<std::string>& class_names) {
+  const std::filesystem::path ply = folder / "map.ply", pcd = folder / "map.pcd";
+  if (options.format == CloudFormat::kPcd) {
+    std::filesystem::remove(ply);
+  } else {
+    WriteFileAtomically(ply, [&](std::ostream& stream) {
+      WritePly(stream, map.cloud_in_world, class_names, options.color);
+    });
+  }
+  if (options.format == CloudFormat::kPly) {
+    std::filesystem::remove(pcd);
+  } else {
+    WriteFileAtomically(
+        pcd, [&](std::ostream& stream) { WritePcd(stream, map.cloud_in_world, options.color); });
+  }
+}
+
 void WriteMap(const std::filesystem::path& folder, const SemanticMap& map,
-              const std::vector<std::string>& class_names) {
-  WriteFileAtomically(folder / "map.ply", [&](std::ostream& stream) {
-    WritePly(stream, map.cloud_in_world, class_names);
+              const DenseOptions& options, const std::vector<std::string>& class_names) {
+  WriteCloud(folder, map, options.cloud_file, class_names);
+  WriteFileAtomically(folder / "map.ot", [&](std::ostream& stream) {
+    WriteColorOcTree(stream, map.octree, options.octree.color);
   });
-  WriteFileAtomically(folder / "map.ot",
-                      [&](std::ostream& stream) { WriteColorOcTree(stream, map.octree); });
   WriteFileAtomically(folder / "map.bt",
                       [&](std::ostream& stream) { WriteBinaryOcTree(stream, map.octree); });
   WriteFileAtomically(folder / "map_labels.csv", [&](std::ostream& stream) {
@@ -220,7 +239,9 @@ void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome
   PinholeCamera camera = description.camera;
   WriteFileAtomically(folder / "camera.yaml", PrintOptionsYaml(OptionFields(camera)));
   WriteFileAtomically(folder / "summary.json", SummaryJson(outcome, options, description));
-  if (outcome.semantic_map) WriteMap(folder, *outcome.semantic_map, outcome.class_names);
+  if (outcome.semantic_map) {
+    WriteMap(folder, *outcome.semantic_map, options.dense, outcome.class_names);
+  }
   if (outcome.objects) {
     SaveObjects(folder / "objects.db", *outcome.objects);
     WriteFileAtomically(folder / "objects.json", ObjectsJson(*outcome.objects));

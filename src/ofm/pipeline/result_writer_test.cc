@@ -111,6 +111,29 @@ TEST(WriteResults, SameSeedGivesTheSameBytesInEveryFile) {
             WithoutTimings(second.path() / "summary.json"));
 }
 
+TEST(WriteResults, CloudFormatsAndColorsCanBeChosen) {
+  const Recording recording(5);
+  const RunOutcome outcome = RunOnce(recording);
+  const TestFolder folder;
+  const auto write = [&](CloudFormat format, MapColor color) {
+    SlamOptions options = test::QuickOptions();
+    options.dense.cloud_file = {format, color};
+    options.dense.octree.color = color;
+    WriteResults(folder.path(), outcome, options, Describe(recording));
+  };
+  write(CloudFormat::kBoth, MapColor::kAppearance);
+  const std::string ply = ReadFile(folder.path() / "map.ply");
+  const std::string ot = ReadFile(folder.path() / "map.ot");
+  EXPECT_THAT(ReadFile(folder.path() / "map.pcd"), testing::StartsWith("# .PCD v0.7"));
+  write(CloudFormat::kPly, MapColor::kLabel);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.pcd")) << "of the run before";
+  EXPECT_TRUE(ply != ReadFile(folder.path() / "map.ply"));
+  EXPECT_TRUE(ot != ReadFile(folder.path() / "map.ot"));
+  write(CloudFormat::kPcd, MapColor::kAppearance);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.ply"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "map.pcd"));
+}
+
 TEST(WriteResults, WithoutASemanticMapItWritesNone) {
   const Recording recording(1);
   const TestFolder folder;

@@ -1,0 +1,52 @@
+#include "ofm/pipeline/octree_upkeep.h"
+
+#include <spdlog/spdlog.h>
+
+namespace ofm {
+
+OctreeUpkeep::OctreeUpkeep(const DenseOptions& options, UpkeepThread thread)
+    : options_(options), where_(thread), integrator_(options) {}
+
+OctreeUpkeep::~OctreeUpkeep() { Stop(); }
+
+void OctreeUpkeep::Update(KeyframeClouds clouds, KeyframePoseMap world_from_camera) {
+  Job job{std::move(clouds), std::move(world_from_camera)};
+  if (where_ == UpkeepThread::kCaller) return Integrate(job);
+  jobs_.Push(std::move(job));
+  if (!thread_.joinable()) thread_ = std::jthread([this](std::stop_token stop) { Run(stop); });
+}
+
+void OctreeUpkeep::Integrate(const Job& job) {
+  ScopedStageTimer timer(times_, "octree_upkeep");
+  is_whole_ = false;
+  integrator_.Update(job.clouds, job.world_from_camera, options_.resolution_m / 2);
+  is_whole_ = true;
+}
+
+/// The thread. The map can be built without it, so that an error of the machine is only told.
+void OctreeUpkeep::Run(std::stop_token stop) {
+  try {
+    while (const std::optional<Job> job = jobs_.Pop(stop)) Integrate(*job);
+  } catch (const std::exception& error) {
+    spdlog::warn("octree upkeep ends: {}", error.what());
+    jobs_.Close();
+  }
+}
+
+void OctreeUpkeep::Stop() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+}
+
+SemanticOctree OctreeUpkeep::Finish(const KeyframeClouds& clouds,
+                                    const KeyframePoseMap& world_from_camera) {
+  Stop();
+  if (!is_whole_) integrator_ = OctreeIntegrator(options_);
+  is_whole_ = false;
+  integrator_.Update(clouds, world_from_camera, 0);
+  is_whole_ = true;
+  return integrator_.Take();
+}
+
+}  // namespace ofm
