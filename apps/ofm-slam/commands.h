@@ -12,6 +12,7 @@ void AddEvaluateInpaintingCommand(CLI::App& app);
 void AddMapCommand(CLI::App& app);
 void AddObjectsCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
+void AddSimulateCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);
 void AddVocabularyCommand(CLI::App& app);
 

@@ -44,6 +44,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddMapCommand(app);
   ofm::AddObjectsCommand(app);
   ofm::AddDemoCommand(app);
+  ofm::AddSimulateCommand(app);
   ofm::AddModelsCommand(app);
   ofm::AddVocabularyCommand(app);
   try {

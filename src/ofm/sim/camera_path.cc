@@ -40,6 +40,11 @@ RigidTransform LookAt(const Eigen::Vector3d& eye_in_world, const Eigen::Vector3d
   return {world_from_camera, eye_in_world};
 }
 
+CameraPath::CameraPath(const CameraPathOptions& options, const Viewpoint& viewpoint)
+    : options_(options), viewpoint_(viewpoint) {
+  if (!viewpoint.tour_in_world.empty()) tour_.emplace(viewpoint.tour_in_world);
+}
+
 RigidTransform CameraPath::Xyz(double time_s) const {
   const RigidTransform middle = LookAt(viewpoint_.eye_in_world, viewpoint_.target_in_world);
   const Eigen::Vector3d shift = options_.amplitude_m * Waves(time_s, options_.period_s);
@@ -68,6 +73,13 @@ RigidTransform CameraPath::Halfsphere(double time_s) const {
 }
 
 RigidTransform CameraPath::Tour(double time_s) const {
+  if (tour_) {
+    constexpr double kAhead_m = 1.1, kSink_m = 0.12;
+    const double gone_m = options_.tour_speed_mps * time_s;
+    const Eigen::Vector2d here = tour_->At(gone_m), ahead = tour_->At(gone_m + kAhead_m);
+    const double height_m = viewpoint_.eye_in_world.z();
+    return LookAt({here.x(), here.y(), height_m}, {ahead.x(), ahead.y(), height_m - kSink_m});
+  }
   constexpr double kRadiusPerAmplitude = 5;
   constexpr double kPeriodsPerRound = 4;
   constexpr double kBob_m = 0.05;
@@ -82,7 +94,23 @@ RigidTransform CameraPath::Tour(double time_s) const {
   return LookAt(eye, eye + outwards - 0.12 * Eigen::Vector3d::UnitZ());
 }
 
+RigidTransform CameraPath::Jitter(double time_s) const {
+  // Sums of waves without a common period, about as a hand trembles (0.5 to 4 Hz).
+  const auto tremor = [time_s](double start) {
+    return 0.5 * std::sin(3.9 * time_s + 1.3 * start) + 0.3 * std::sin(9.7 * time_s + 2.9 * start) +
+           0.2 * std::sin(23.3 * time_s + 4.1 * start);
+  };
+  const Eigen::Vector3d shift(tremor(1), tremor(2), tremor(3));
+  const Eigen::Vector3d turn(tremor(4), tremor(5), tremor(6));
+  return {ExpSo3(options_.jitter_deg * kRadiansPerDegree * turn), options_.jitter_m * shift};
+}
+
 RigidTransform CameraPath::WorldFromCamera(double time_s) const {
+  if (options_.jitter_m == 0 && options_.jitter_deg == 0) return Steady(time_s);
+  return Steady(time_s) * Jitter(time_s);
+}
+
+RigidTransform CameraPath::Steady(double time_s) const {
   switch (options_.kind) {
     case CameraPathKind::kStatic:
       return LookAt(viewpoint_.eye_in_world, viewpoint_.target_in_world);

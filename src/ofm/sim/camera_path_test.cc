@@ -129,5 +129,38 @@ TEST(CameraPath, TourTurnsOnceAboutAndEndsWhereItBegan) {
   EXPECT_GT((path.WorldFromCamera(round_s / 2).translation() - start.translation()).norm(), 1.9);
 }
 
+TEST(CameraPath, TourGoesTheWorldsWayLookingAheadAndCloses) {
+  CameraPathOptions options;
+  options.kind = CameraPathKind::kTour;
+  options.tour_speed_mps = 0.5;
+  Viewpoint viewpoint = kViewpoint;
+  viewpoint.tour_in_world = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
+  const CameraPath path(options, viewpoint);
+  const RigidTransform pose = path.WorldFromCamera(8);
+  EXPECT_LT((pose.translation() - Eigen::Vector3d(4, 0, 1.35)).norm(), 1e-6);
+  EXPECT_GT(Axis(pose, 2).x(), 0.95);
+  const RigidTransform round = path.WorldFromCamera(8 + 24 / 0.5);
+  EXPECT_LT((round.translation() - pose.translation()).norm(), 1e-6);
+}
+
+TEST(CameraPath, HandTremblesAsMuchAsAsked) {
+  CameraPathOptions options;
+  options.kind = CameraPathKind::kStatic;
+  options.jitter_m = 0.01;
+  options.jitter_deg = 1;
+  const CameraPath path(options, kViewpoint);
+  const RigidTransform still = MakePath(CameraPathKind::kStatic).WorldFromCamera(0);
+  double shift = 0, turn = 0;
+  for (double t = 0; t < 20; t += 0.05) {
+    const RigidTransform offset = still.Inverse() * path.WorldFromCamera(t);
+    shift = std::max(shift, offset.translation().cwiseAbs().maxCoeff());
+    turn = std::max(turn, offset.RotationAngle() * 180 / std::numbers::pi);
+  }
+  EXPECT_LE(shift, 0.01);
+  EXPECT_GT(shift, 0.005);
+  EXPECT_LE(turn, 1.8);
+  EXPECT_GT(turn, 0.5);
+}
+
 }  // namespace
 }  // namespace ofm

@@ -37,6 +37,10 @@ RigidTransform At(const WaypointMotion& motion, double time_s) {
                      {Yaw(after->yaw_rad), after->position_in_world}, ratio);
 }
 
+RigidTransform At(const ScriptedMotion& motion, double time_s) {
+  return motion.world_from_body(time_s);
+}
+
 }  // namespace
 
 RigidTransform WorldFromBody(const Motion& motion, double time_s) {

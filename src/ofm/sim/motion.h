@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -36,7 +37,12 @@ struct WaypointMotion {
   std::vector<Waypoint> waypoints;
 };
 
-using Motion = std::variant<StaticMotion, SweepMotion, WaypointMotion>;
+/// Any way to go: a function of time without a state, which threads may call together.
+struct ScriptedMotion {
+  std::function<RigidTransform(double time_s)> world_from_body;
+};
+
+using Motion = std::variant<StaticMotion, SweepMotion, WaypointMotion, ScriptedMotion>;
 
 /// Where a body is at `time_s`.
 RigidTransform WorldFromBody(const Motion& motion, double time_s);

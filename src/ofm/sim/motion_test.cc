@@ -75,5 +75,13 @@ TEST(Motion, WayWithoutPointsIsRefused) {
   EXPECT_THROW(WorldFromBody(WaypointMotion{}, 0), std::logic_error);
 }
 
+TEST(Motion, ScriptSaysWhereItsBodyIs) {
+  const Motion motion = ScriptedMotion{[](double time_s) {
+    return RigidTransform(Eigen::Quaterniond::Identity(), Eigen::Vector3d(time_s, 0, 0));
+  }};
+  EXPECT_TRUE(IsMoving(motion));
+  EXPECT_EQ(WorldFromBody(motion, 2.5).translation().x(), 2.5);
+}
+
 }  // namespace
 }  // namespace ofm

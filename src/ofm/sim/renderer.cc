@@ -178,4 +178,18 @@ cv::Mat Renderer::RenderInstances(const Scene& scene, double time_s,
   return InstanceImage(surfaces, FindVisible(surfaces).surface);
 }
 
+VisibleParts Renderer::RenderParts(const Scene& scene, double time_s,
+                                   const RigidTransform& world_from_camera) const {
+  const std::vector<Surface> surfaces = MakeSurfaces(scene, time_s, world_from_camera.Inverse());
+  const Visibility visible = FindVisible(surfaces);
+  VisibleParts parts{WithoutInfinity(visible.depth_m), visible.surface};
+  for (int y = 0; y < parts.part.rows; ++y) {
+    int* index = parts.part.ptr<int>(y);
+    for (int x = 0; x < parts.part.cols; ++x) {
+      if (index[x] >= 0) index[x] = surfaces[index[x]].part;
+    }
+  }
+  return parts;
+}
+
 }  // namespace ofm

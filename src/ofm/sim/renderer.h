@@ -20,6 +20,12 @@ struct RenderedImage {
   cv::Mat instance;  ///< CV_8UC1, InstanceId at the pixel's centre; 0 = background
 };
 
+/// Which solid is at the centre of each pixel.
+struct VisibleParts {
+  cv::Mat depth_m;  ///< CV_32FC1, z [m]; 0 = nothing there
+  cv::Mat part;     ///< CV_32SC1, counts the parts of all bodies in their order; -1 = nothing there
+};
+
 /// Casts rays for one camera. Const, so threads may share it.
 class Renderer {
  public:
@@ -31,6 +37,10 @@ class Renderer {
   /// The instance image alone, without the cost of colour.
   cv::Mat RenderInstances(const Scene& scene, double time_s,
                           const RigidTransform& world_from_camera) const;
+
+  /// The solids alone, without the cost of colour.
+  VisibleParts RenderParts(const Scene& scene, double time_s,
+                           const RigidTransform& world_from_camera) const;
 
   const PinholeCamera& camera() const { return camera_; }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ofm/base/check.h"
+#include "ofm/sim/light_baker.h"
 
 namespace ofm {
 
@@ -17,6 +18,25 @@ RigidTransform WorldFromPart(const Body& body, const Part& part, double time_s) 
       ExpSo3(swing.axis_in_body.normalized() * (swing.amplitude_rad * std::sin(phase)));
   const RigidTransform about_pivot(rotation, swing.pivot_in_body - rotation * swing.pivot_in_body);
   return world_from_body * about_pivot * part.body_from_part;
+}
+
+std::vector<RigidTransform> WorldFromParts(const Body& body, double time_s) {
+  std::vector<RigidTransform> places;
+  if (body.body_from_parts) {
+    const RigidTransform world_from_body = WorldFromBody(body.motion, time_s);
+    places = body.body_from_parts(time_s);
+    OFM_CHECK(places.size() == body.parts.size());
+    for (RigidTransform& place : places) place = world_from_body * place;
+  } else {
+    for (const Part& part : body.parts) places.push_back(WorldFromPart(body, part, time_s));
+  }
+  return places;
+}
+
+Scene::Scene(std::vector<Body> bodies, const Viewpoint& viewpoint, const Lighting& lighting)
+    : Scene(std::move(bodies), viewpoint) {
+  lighting_ = lighting;
+  if (!lighting.lamps.empty()) baked_ = BakeLight(bodies_, lighting);
 }
 
 Scene::Scene(std::vector<Body> bodies, const Viewpoint& viewpoint)

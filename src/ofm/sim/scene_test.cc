@@ -57,5 +57,14 @@ TEST(WorldFromPart, LimbSwingsAboutItsPivot) {
   EXPECT_NEAR((forward * Eigen::Vector3d(0, 0, -0.4)).x(), -0.8 * std::sin(0.5), 1e-9);
 }
 
+TEST(WorldFromParts, ScriptPlacesThePartsOnTheBody) {
+  Body body = MakeTestBody("person", StaticMotion{Shift(1, 0, 0)}, Shape::kBox, {1, 1, 1});
+  EXPECT_EQ(WorldFromParts(body, 0)[0].translation().x(), 1);
+  body.body_from_parts = [](double time_s) { return std::vector{Shift(0, time_s, 0)}; };
+  EXPECT_EQ(WorldFromParts(body, 2)[0].translation(), Eigen::Vector3d(1, 2, 0));
+  body.parts.push_back(body.parts[0]);
+  EXPECT_THROW(WorldFromParts(body, 2), std::logic_error) << "a place for each part";
+}
+
 }  // namespace
 }  // namespace ofm

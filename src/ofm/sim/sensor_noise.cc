@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "ofm/base/random.h"
 #include "ofm/sim/normal_deviate.h"
@@ -52,7 +53,7 @@ EnumNameList<NoiseModel> EnumNames(NoiseModel) {
 
 SensorNoise::SensorNoise(const SensorNoiseOptions& options, const PinholeCamera& camera,
                          std::uint64_t seed)
-    : options_(options), baseline_m_(camera.baseline_m), seed_(seed) {
+    : options_(options), baseline_m_(camera.baseline_m), focal_px_(camera.fx), seed_(seed) {
   if (options_.model != NoiseModel::kNone) normal_ = DrawNormal(MakeRandomEngine(seed, 0));
 }
 
@@ -98,8 +99,40 @@ void SensorNoise::DisturbColor(std::uint32_t frame, cv::Mat& color) const {
   }
 }
 
+void SensorNoise::DropShadows(cv::Mat& depth_m) const {
+  // The projector stands to the right of the camera, by the baseline, and sees the same rows. Going
+  // from right to left its columns fall; what does not is behind something.
+  constexpr float kTolerance_px = 0.6F;
+  const float scale = static_cast<float>(focal_px_ * baseline_m_);
+  for (int y = 0; y < depth_m.rows; ++y) {
+    float* depth = depth_m.ptr<float>(y);
+    float least = std::numeric_limits<float>::infinity();
+    for (int x = depth_m.cols - 1; x >= 0; --x) {
+      if (depth[x] <= 0) continue;
+      const float column = static_cast<float>(x) - scale / depth[x];
+      if (column > least + kTolerance_px) depth[x] = 0;
+      least = std::min(least, column);
+    }
+  }
+}
+
+void SensorNoise::DropDark(std::uint32_t frame, const cv::Mat& color, cv::Mat& depth_m) const {
+  constexpr int kBlock_px = 4, kDark = 40;
+  RandomEngine engine = MakeRandomEngine(seed_, (std::uint64_t{1} << 40) + frame);
+  for (int y = 0; y < depth_m.rows; y += kBlock_px) {
+    for (int x = 0; x < depth_m.cols; x += kBlock_px) {
+      const cv::Vec3b middle = color.at<cv::Vec3b>(y, x);
+      const bool is_dark = middle[0] + middle[1] + middle[2] < 3 * kDark;
+      if (!is_dark || UniformReal(engine) >= options_.dark_dropout) continue;
+      depth_m(cv::Rect(x, y, kBlock_px, kBlock_px) & cv::Rect({0, 0}, depth_m.size())).setTo(0);
+    }
+  }
+}
+
 void SensorNoise::Apply(std::uint32_t frame, RenderedImage& image) const {
   if (options_.model == NoiseModel::kNone) return;
+  if (options_.shadow > 0) DropShadows(image.depth_m);
+  if (options_.dark_dropout > 0) DropDark(frame, image.color, image.depth_m);
   DisturbDepth(frame, image.depth_m);
   DisturbColor(frame, image.color);
 }

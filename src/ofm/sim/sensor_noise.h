@@ -11,7 +11,7 @@ namespace ofm {
 
 enum class NoiseModel {
   kNone,    ///< the ideal image and depth
-  kKinect,  ///< all of the below
+  kKinect,  ///< all of the below that is not 0
 };
 EnumNameList<NoiseModel> EnumNames(NoiseModel);
 
@@ -23,6 +23,8 @@ struct SensorNoiseOptions {
   double min_depth_m = 0.4;          ///< nearer is not measured
   double max_depth_m = 5;            ///< farther is not measured
   double edge_dropout = 0.6;         ///< share of the pixels at depth edges not measured
+  double shadow = 0;                 ///< 1: no depth where the projector's light is hidden; 0: off
+  double dark_dropout = 0;           ///< share of blocks of 4 px on black surfaces not measured
   double image_sigma = 2;            ///< of each colour channel [grey levels]
 
   template <class Self, class Visitor>
@@ -37,6 +39,10 @@ struct SensorNoiseOptions {
     visit("min_depth_m", self.min_depth_m, "nearest depth measured [m]", Range{0, 100});
     visit("max_depth_m", self.max_depth_m, "farthest depth measured [m]", Range{0, 1000});
     visit("edge_dropout", self.edge_dropout, "share of pixels at depth edges without depth",
+          Range{0, 1});
+    visit("shadow", self.shadow, "1: no depth where the projector's light is hidden, 0: off",
+          Range{0, 1});
+    visit("dark_dropout", self.dark_dropout, "share of blocks on black surfaces without depth",
           Range{0, 1});
     visit("image_sigma", self.image_sigma, "of each colour channel [grey levels]", Range{0, 100});
   }
@@ -55,9 +61,11 @@ class SensorNoise {
   void DisturbDepth(std::uint32_t frame, cv::Mat& depth_m) const;
   void DisturbColor(std::uint32_t frame, cv::Mat& color) const;
   float Quantise(float depth_m) const;
+  void DropShadows(cv::Mat& depth_m) const;
+  void DropDark(std::uint32_t frame, const cv::Mat& color, cv::Mat& depth_m) const;
 
   SensorNoiseOptions options_;
-  double baseline_m_;
+  double baseline_m_, focal_px_;
   std::uint64_t seed_;
   std::vector<float> normal_;  ///< zero mean, unit variance
 };

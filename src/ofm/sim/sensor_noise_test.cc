@@ -43,6 +43,31 @@ TEST(SensorNoise, NoneLeavesTheImageAlone) {
   EXPECT_EQ(cv::norm(image.color, FlatImage(2).color, cv::NORM_INF), 0);
 }
 
+TEST(SensorNoise, ProjectorsShadowLiesLeftOfWhatIsNear) {
+  SensorNoiseOptions options = Kinect();
+  options.depth_sigma = options.disparity_step_px = options.edge_dropout = 0;
+  options.shadow = 1;
+  RenderedImage image = FlatImage(3);
+  image.depth_m(cv::Rect(150, 0, 60, 240)).setTo(1);
+  const cv::Mat depth_m = Disturbed(options, image).depth_m;
+  const int width = cvRound(kCamera.fx * kCamera.baseline_m * (1 / 1.0 - 1 / 3.0));
+  EXPECT_EQ(depth_m.at<float>(100, 150), 1);
+  EXPECT_EQ(depth_m.at<float>(100, 149), 0);
+  EXPECT_EQ(depth_m.at<float>(100, 150 - width + 2), 0);
+  EXPECT_EQ(depth_m.at<float>(100, 150 - width - 2), 3);
+  EXPECT_EQ(depth_m.at<float>(100, 211), 3);
+}
+
+TEST(SensorNoise, BlackSurfacesLoseBlocksOfDepth) {
+  SensorNoiseOptions options = Kinect();
+  options.dark_dropout = 0.5;
+  RenderedImage image = FlatImage(2);
+  image.color(cv::Rect(0, 0, 160, 240)).setTo(cv::Scalar::all(10));
+  const cv::Mat depth_m = Disturbed(options, image).depth_m;
+  EXPECT_NEAR(cv::countNonZero(depth_m(cv::Rect(0, 0, 160, 240))) / (160.0 * 240), 0.5, 0.05);
+  EXPECT_EQ(cv::countNonZero(depth_m(cv::Rect(160, 0, 160, 240))), 160 * 240);
+}
+
 class NoiseAtDepth : public testing::TestWithParam<float> {};
 
 TEST_P(NoiseAtDepth, DeviationIsTheModelsQuantisationIncluded) {

@@ -6,6 +6,7 @@
 
 #include "ofm/base/check.h"
 #include "ofm/base/time.h"
+#include "ofm/sim/scene_flow.h"
 
 namespace ofm {
 
@@ -21,7 +22,10 @@ PinholeCamera MakeSimCamera(int width_px, int height_px) {
 }
 
 SimSequence::SimSequence(const SimSequenceOptions& options)
-    : SimSequence(options, MakeRoom(options.room, options.seed)) {}
+    : SimSequence(options, MakeWorld({options.world,
+                                      options.room,
+                                      {PeopleKind::kNone, options.frames / options.rate_hz,
+                                       options.path, options.seed}})) {}
 
 SimSequence::SimSequence(const SimSequenceOptions& options, Scene scene)
     : options_(options),
@@ -66,8 +70,30 @@ Trajectory SimSequence::GroundTruth() const {
   return trajectory;
 }
 
-RgbdFrame SimSequence::Frame(FrameId id) const {
+RgbdFrame SimSequence::Frame(FrameId id) const { return Render(id).frame; }
+
+cv::Mat SimSequence::Expose(double time_s, const cv::Mat& sharp) const {
+  // Of what is about 1.5 m away; people walk at about 1.2 m/s.
+  constexpr double kDistance_m = 1.5, kPeople_mps = 1.2, kStep_s = 1e-3;
+  const ImagingOptions& imaging = options_.imaging;
+  cv::Mat color = sharp;
+  if (imaging.exposure_s > 0) {
+    const RigidTransform motion =
+        path_.WorldFromCamera(time_s).Inverse() * path_.WorldFromCamera(time_s + kStep_s);
+    const double people = scene_.mover_count() > 0 ? kPeople_mps / kDistance_m : 0;
+    const double camera =
+        (motion.RotationAngle() + motion.translation().norm() / kDistance_m) / kStep_s;
+    color = BlurByMotion(imaging, time_s, options_.camera.fx * (camera + people), [&](double t) {
+      return renderer_.Render(scene_, t, path_.WorldFromCamera(t)).color;
+    });
+  }
+  ChangeExposure(imaging, time_s, color);
+  return color;
+}
+
+SimFrame SimSequence::Render(FrameId id) const {
   RenderedImage image = renderer_.Render(scene_, SceneTime(id), WorldFromCamera(id));
+  image.color = Expose(SceneTime(id), image.color);
   noise_.Apply(id.value, image);
   RgbdFrame frame;
   frame.id = id;
@@ -76,7 +102,15 @@ RgbdFrame SimSequence::Frame(FrameId id) const {
   frame.color = image.color;
   frame.depth_m = image.depth_m;
   cv::cvtColor(frame.color, frame.gray, cv::COLOR_BGR2GRAY);
-  return frame;
+  return {frame, image.instance};
+}
+
+cv::Mat SimSequence::FlowToNext(FrameId id) const {
+  const auto view = [this](double time_s) {
+    return SceneView{time_s, path_.WorldFromCamera(time_s)};
+  };
+  const double time_s = SceneTime(id);
+  return RenderFlow(renderer_, scene_, view(time_s), view(time_s + 1 / options_.rate_hz));
 }
 
 cv::Mat SimSequence::InstanceMask(FrameId id) const {

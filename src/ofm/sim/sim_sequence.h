@@ -11,9 +11,11 @@
 #include "ofm/geometry/trajectory.h"
 #include "ofm/io/frame_source.h"
 #include "ofm/sim/camera_path.h"
+#include "ofm/sim/imaging.h"
 #include "ofm/sim/renderer.h"
 #include "ofm/sim/room.h"
 #include "ofm/sim/sensor_noise.h"
+#include "ofm/sim/world.h"
 
 namespace ofm {
 
@@ -21,26 +23,36 @@ namespace ofm {
 PinholeCamera MakeSimCamera(int width_px, int height_px);
 
 struct SimSequenceOptions {
-  std::uint64_t seed = 1;  ///< decides the room, its movers and the noise
+  std::uint64_t seed = 1;  ///< decides the world, its movers and the noise
   int frames = 60;
   double rate_hz = 30;
   double start_s = 1000;  ///< stamp of the first frame [s]
   PinholeCamera camera = MakeSimCamera(320, 240);
   CameraPathOptions path;
+  WorldOptions world;
   RoomOptions room;
+  ImagingOptions imaging;
   SensorNoiseOptions noise;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("seed", self.seed, "decides the room, its movers and the noise", Range{0, 1e15});
+    visit("seed", self.seed, "decides the world, its movers and the noise", Range{0, 1e15});
     visit("frames", self.frames, "number of frames", Range{1, 1e6});
     visit("rate_hz", self.rate_hz, "frames per second", Range{0.1, 1000});
     visit("start_s", self.start_s, "stamp of the first frame [s]", Range{0, 4e9});
     visit("camera", self.camera);
     visit("path", self.path);
+    visit("world", self.world);
     visit("room", self.room);
+    visit("imaging", self.imaging);
     visit("noise", self.noise);
   }
+};
+
+/// A frame with its truth.
+struct SimFrame {
+  RgbdFrame frame;
+  cv::Mat instance;  ///< CV_8UC1: InstanceId of everything that has a class, 0 elsewhere
 };
 
 /// Renders frames when they are asked for. The const members depend on nothing but the options
@@ -59,6 +71,10 @@ class SimSequence : public FrameSource {
 
   /// Frame `id`, whatever Next() gave; `id` is in [0, size()).
   RgbdFrame Frame(FrameId id) const;
+  /// The same with its instances, at little more cost.
+  SimFrame Render(FrameId id) const;
+  /// Exact flow to where the next frame is, or would be: see RenderFlow.
+  cv::Mat FlowToNext(FrameId id) const;
   /// Whole microseconds after the start, so that text files keep it exactly.
   std::int64_t StampNs(FrameId id) const;
   /// Seconds since the first frame: the time of the scene and of the path.
@@ -78,6 +94,9 @@ class SimSequence : public FrameSource {
   const Scene& scene() const { return scene_; }
 
  private:
+  /// The colour image with what the shutter does; `sharp` is that of the frame's stamp.
+  cv::Mat Expose(double time_s, const cv::Mat& sharp) const;
+
   SimSequenceOptions options_;
   Scene scene_;
   CameraPath path_;

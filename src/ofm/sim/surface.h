@@ -18,10 +18,10 @@ struct ImageBounds {
   float max_y = -std::numeric_limits<float>::infinity();
 };
 
-/// A rectangle or an ellipsoid as one camera sees it. A pixel's ray is (x, y, 1), so the distance
-/// along it is the depth z.
+/// A rectangle, an ellipsoid or a cylinder as one camera sees it. A pixel's ray is (x, y, 1), so
+/// the distance along it is the depth z.
 struct Surface {
-  enum class Kind { kPlane, kEllipsoid };
+  enum class Kind { kPlane, kEllipsoid, kCylinder };
   Kind kind = Kind::kPlane;
   ImageBounds bounds;
 
@@ -31,18 +31,24 @@ struct Surface {
   float half_u = 0, half_v = 0;      ///< [m]
   Eigen::Vector3f normal_in_camera;  ///< towards the camera
 
-  // Ellipsoid: the affine map to the unit sphere.
+  // Ellipsoid: the affine map to the unit sphere. Cylinder: to the one of radius 1 + taper z about
+  // the z axis, for z from -1 to 1.
   Eigen::Matrix3f sphere_from_camera;
   Eigen::Vector3f camera_in_sphere;
   Eigen::Vector3f radii_m;
+  float taper = 0;
 
   const Texture* texture = nullptr;
   Eigen::Vector2f texture_offset_m = Eigen::Vector2f::Zero();
-  Eigen::Vector3f light_in_camera;
+  const LightMap* light_map = nullptr;  ///< what falls on a plane; otherwise the next three hold
+  Eigen::Vector3f light_in_camera;      ///< direction that light comes from
+  float ambient = 0.55F, diffuse = 0.45F;
+  float glow = 0;
   std::uint8_t instance = 0;
+  int part = 0;  ///< counts the parts of all bodies in their order
 };
 
-/// What of `scene` can be in view at `time_s`. Refers to the scene's textures.
+/// What of `scene` can be in view at `time_s`. Refers to the scene's textures and light maps.
 std::vector<Surface> MakeSurfaces(const Scene& scene, double time_s,
                                   const RigidTransform& camera_from_world);
 

@@ -64,6 +64,43 @@ TEST(Surface, EllipsoidIsMetAtItsNearSide) {
   EXPECT_TRUE(std::isinf(CastRay(surfaces, 0, 0.2F)));
 }
 
+TEST(Surface, CylinderIsMetOnItsMantleAndItsEnd) {
+  // Its axis is the camera's z axis at first, then the camera's y axis.
+  Body can = MakeTestBody("cup", StaticMotion{Shift(0, 0, 3)}, Shape::kCylinder, {0.4, 0.2, 0.5});
+  EXPECT_FLOAT_EQ(CastRay(SurfacesOf(can), 0, 0), 2.5F) << "the end";
+  EXPECT_FLOAT_EQ(CastRay(SurfacesOf(can), 0.15F, 0.03F), 2.5F);
+  EXPECT_TRUE(std::isinf(CastRay(SurfacesOf(can), 0.17F, 0)));
+  can.motion = StaticMotion{{ExpSo3({std::numbers::pi / 2, 0, 0}), Eigen::Vector3d(0, 0, 3)}};
+  EXPECT_NEAR(CastRay(SurfacesOf(can), 0, 0.1F), 2.8F, 1e-6) << "the mantle";
+  EXPECT_TRUE(std::isinf(CastRay(SurfacesOf(can), 0, 0.19F)));
+  EXPECT_TRUE(std::isinf(CastRay(SurfacesOf(can), 0.15F, 0)));
+}
+
+TEST(Surface, TaperedCylinderIsWiderAtItsUpperEnd) {
+  Body cone = MakeTestBody("cup", {}, Shape::kCylinder, {0.3, 0.3, 0.5});
+  cone.parts[0].taper = 0.5;
+  // The cylinder's upper end looks up: towards -y of the camera.
+  cone.motion = StaticMotion{{ExpSo3({std::numbers::pi / 2, 0, 0}), Eigen::Vector3d(0, 0, 3)}};
+  const std::vector<Surface> surfaces = SurfacesOf(cone);
+  const float above = CastRay(surfaces, 0, -0.1F), below = CastRay(surfaces, 0, 0.1F);
+  EXPECT_LT(above, 2.7F);
+  EXPECT_GT(below, 2.7F);
+  EXPECT_NEAR(3 - above, 0.3 * (1 + 0.5 * 0.1 * above / 0.5), 1e-5);
+  const ImageBounds& bounds = surfaces[0].bounds;
+  EXPECT_GT(bounds.max_x, 0.45 / 3);
+}
+
+TEST(Surface, CylinderShadesByItsNormal) {
+  Body can = MakeTestBody("cup", {}, Shape::kCylinder, {0.3, 0.3, 0.5});
+  can.motion = StaticMotion{{ExpSo3({std::numbers::pi / 2, 0, 0}), Eigen::Vector3d(0, 0, 3)}};
+  Surface surface = SurfacesOf(can)[0];
+  surface.texture_offset_m = {0, 0};
+  surface.light_in_camera = {0, 0, -1};
+  const float lit = ShadeSurface(surface, {0, 0}, 2.7F, 10).sum();
+  surface.light_in_camera = {0, 0, 1};
+  EXPECT_NEAR(lit / ShadeSurface(surface, {0, 0}, 2.7F, 10).sum(), 1 / 0.55, 1e-3);
+}
+
 TEST(Surface, WhatIsBehindTheCameraIsLeftOut) {
   const Body box = MakeTestBody("box", StaticMotion{Shift(0, 0, -3)}, Shape::kBox, {1, 1, 1});
   const Body ball = MakeTestBody("b", StaticMotion{Shift(0, 0, -3)}, Shape::kEllipsoid, {1, 1, 1});
@@ -105,6 +142,16 @@ TEST(Surface, NearerSurfaceHidesTheFarther) {
   const std::vector<Surface> surfaces = MakeSurfaces(scene, 0, {});
   EXPECT_FLOAT_EQ(CastRay(surfaces, 0, 0), 1.5F);
   EXPECT_FLOAT_EQ(CastRay(surfaces, 0.5F, 0), 4);
+}
+
+TEST(Surface, GlowAndLightMapsDecideTheBrightness) {
+  const Body wall = MakeTestWall();
+  Surface surface = SurfacesOf(wall)[0];
+  const LightMap map(2, 2, {10, 10}, {0.25F, 0.25F, 0.25F, 0.25F});
+  surface.light_map = &map;
+  const float dim = ShadeSurface(surface, {0.1F, 0.1F}, 4, 0.002F).sum();
+  surface.glow = 0.5;
+  EXPECT_NEAR(ShadeSurface(surface, {0.1F, 0.1F}, 4, 0.002F).sum() / dim, 3, 1e-4);
 }
 
 TEST(Surface, SurfaceTurnedToTheLightIsBrighter) {

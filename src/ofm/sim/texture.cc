@@ -174,12 +174,15 @@ EnumNameList<TextureStyle> EnumNames(TextureStyle) {
   return kNames;
 }
 
-Texture::Texture(const TextureOptions& options, std::uint64_t seed) {
-  OFM_CHECK(options.size_px >= 32 && std::has_single_bit(static_cast<unsigned>(options.size_px)));
-  OFM_CHECK(options.metres_per_texel > 0);
+Texture::Texture(const TextureOptions& options, std::uint64_t seed)
+    : Texture(PaintTile(options, seed), options.metres_per_texel) {}
+
+Texture::Texture(const cv::Mat& tile, double metres_per_texel) {
+  OFM_CHECK(metres_per_texel > 0 && tile.type() == CV_8UC3 && tile.rows == tile.cols);
+  OFM_CHECK(tile.cols >= 32 && std::has_single_bit(static_cast<unsigned>(tile.cols)));
   cv::Mat image;
-  cv::cvtColor(PaintTile(options, seed), image, cv::COLOR_BGR2BGRA);
-  float texels_per_metre = static_cast<float>(1 / options.metres_per_texel);
+  cv::cvtColor(tile, image, cv::COLOR_BGR2BGRA);
+  float texels_per_metre = static_cast<float>(1 / metres_per_texel);
   levels_.push_back({image, texels_per_metre});
   while (image.cols > 1) {
     cv::Mat half;

@@ -32,6 +32,10 @@ class Texture {
   /// The same (options, seed) give the same texture.
   Texture(const TextureOptions& options, std::uint64_t seed);
 
+  /// A tile at hand: CV_8UC3, square, its size a power of two; column 0 is at u = 0, row 0 at v =
+  /// 0.
+  Texture(const cv::Mat& tile, double metres_per_texel);
+
   /// Colour (blue, green, red; 0 to 255) at the surface point (u, v) [m], averaged over about
   /// `footprint_m` [m]: bilinear in the plane, linear between levels.
   Eigen::Array3f Sample(float u_m, float v_m, float footprint_m) const;

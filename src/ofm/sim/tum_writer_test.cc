@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -9,11 +10,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "ofm/base/error.h"
 #include "ofm/base/time.h"
 #include "ofm/io/camera_file.h"
+#include "ofm/io/read_file.h"
 #include "ofm/io/test_folder.h"
 #include "ofm/io/trajectory_file.h"
 #include "ofm/io/tum_sequence.h"
+#include "ofm/sim/scene_flow.h"
 
 namespace ofm {
 namespace {
@@ -120,6 +124,56 @@ TEST_F(TumWriter, CameraAndActorsAreDescribed) {
   ASSERT_EQ(actors["actors"].size(), 1U);
   EXPECT_EQ(actors["actors"][0]["kind"], "person");
   EXPECT_EQ(actors["actors"][0]["id"], 1);
+}
+
+TEST_F(TumWriter, ThreadsChangeNoByteAndGiveEachFrameOnce) {
+  const SimSequence sequence(options_);
+  const fs::path one = folder_.path() / "one", two = folder_.path() / "two";
+  WriteTumSequence(sequence, one);
+  std::atomic<int> frames = 0;
+  double share = 0;
+  TumWriterOptions options;
+  options.threads = 2;
+  options.on_frame = [&](const SimFrame& rendered) {
+    EXPECT_EQ(rendered.instance.size(), rendered.frame.color.size());
+    ++frames;
+  };
+  options.on_share = [&](double done) { share = done; };
+  WriteTumSequence(sequence, two, options);
+  EXPECT_EQ(frames, 3);
+  EXPECT_EQ(share, 1);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(one)) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_EQ(ReadFile(entry.path()), ReadFile(two / fs::relative(entry.path(), one)));
+    ++files;
+  }
+  EXPECT_EQ(files, 9 + 6);
+}
+
+TEST_F(TumWriter, FlowIsThatOfTheSequenceAndTheLastFrameHasNone) {
+  const SimSequence sequence(options_);
+  TumWriterOptions options;
+  options.flow = FlowFiles::kWrite;
+  WriteTumSequence(sequence, folder_.path(), options);
+  const std::string file = sequence.Frame(FrameId(1)).name + ".png";
+  const cv::Mat encoded =
+      cv::imread((folder_.path() / "flow" / file).string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(encoded.type(), CV_16UC3);
+  const cv::Mat difference = DecodeFlow(encoded) - sequence.FlowToNext(FrameId(1));
+  EXPECT_LE(cv::norm(difference, cv::NORM_INF), 1.01 / 64);
+  const auto files = fs::directory_iterator(folder_.path() / "flow");
+  EXPECT_EQ(std::distance(fs::begin(files), fs::end(files)), 2);
+}
+
+TEST_F(TumWriter, WhatAFunctionThrowsEndsTheWriting) {
+  TumWriterOptions options;
+  options.threads = 2;
+  options.on_frame = [](const SimFrame&) { throw Error("no more"); };
+  const std::string message =
+      ErrorOf([&] { WriteTumSequence(SimSequence(options_), folder_.path(), options); });
+  EXPECT_EQ(message, "no more");
+  EXPECT_FALSE(fs::exists(folder_.path() / "rgb.txt"));
 }
 
 TEST_F(TumWriter, FolderThatCannotBeMadeIsNamed) {
