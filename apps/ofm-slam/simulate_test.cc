@@ -14,16 +14,21 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Arguments of a small recording.
+/// Arguments of a quiet call.
+std::string Quiet(const fs::path& folder, const std::string& more) {
+  return "simulate --quiet '" + folder.string() + "' " + more;
+}
+
+/// Arguments of a small recording of the small room.
 std::string Small(const fs::path& folder, const std::string& more = "") {
-  return "simulate '" + folder.string() + "' --quiet --frames 3 --size 96x64 " + more;
+  return Quiet(folder, "--scene room --frames 3 --size 96x64 " + more);
 }
 
 TEST(Simulate, WritesAFolderThatRunTakes) {
   const TestFolder folder;
   const fs::path output = folder.path() / "new" / "sequence";
-  const ProgramResult result =
-      RunProgram(Small(output, "--size 160x120 --scene room --set room.people=1 --flow"));
+  const ProgramResult result = RunProgram(
+      Quiet(output, "--frames 3 --size 160x120 --scene room --set room.people=1 --flow"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, IsEmpty());
   EXPECT_THAT(result.out, AllOf(HasSubstr(output.string()), HasSubstr("3 frames of 160 x 120")));
@@ -88,7 +93,7 @@ TEST(Simulate, BadArgumentsAreNamedInOneLineAndNothingIsWritten) {
       {"--frames 0", "--frames"},       {"--fps 0", "--fps"},
       {"--distortion x", "distortion"}, {"--set room.peple=2", "room.peple"}};
   for (const auto& [arguments, hint] : cases) {
-    const ProgramResult result = RunProgram(Small(output, arguments));
+    const ProgramResult result = RunProgram(Quiet(output, arguments));
     EXPECT_EQ(result.exit_code, 1) << arguments;
     EXPECT_THAT(result.err, AllOf(IsOneErrorLine(), HasSubstr(hint))) << arguments;
     EXPECT_FALSE(fs::exists(output)) << arguments;

@@ -7,7 +7,7 @@
 namespace ofm {
 namespace {
 
-/// Keeps walkers away from the camera, and from where it looks from between two steps.
+/// Nobody walks into the camera.
 KeepAway AwayFromCamera(const CameraPath& path) {
   constexpr double kDistance_m = 0.7;
   return {[path](double time_s) -> Eigen::Vector2d {

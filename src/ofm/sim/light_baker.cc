@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kCell_m = 0.1;
+constexpr double kCell_m = 0.15;
 constexpr double kSmall_m = 0.13;     // half the size of faces that have one value
 constexpr float kLift_m = 0.01F;      // of the points above their own face
 constexpr float kAmbientReach_m = 1;  // what is farther away takes no light of all sides

@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Lengths for a height of 1.75 m [m].
-constexpr double kReference_m = 1.75;
+/// Lengths for a height of 1.85 m [m].
+constexpr double kReference_m = 1.85;
 constexpr double kThigh_m = 0.44, kShin_m = 0.43, kAnkle_m = 0.08, kHipDrop_m = 0.03;
 constexpr double kUpperArm_m = 0.29, kForearm_m = 0.25;
 constexpr double kHipWidth_m = 0.095, kShoulderWidth_m = 0.2;

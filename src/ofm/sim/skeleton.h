@@ -10,7 +10,7 @@ namespace ofm {
 
 /// Angles of the joints [rad]; index 0 is the right side, 1 the left. All 0: upright, arms hanging.
 struct JointAngles {
-  double pelvis_m = 0.95;    ///< height of the pelvis above the floor, for a height of 1.75 m
+  double pelvis_m = 0.95;    ///< height of the pelvis above the floor, for a height of 1.85 m
   double lean = 0;           ///< of the trunk, forwards
   double twist = 0;          ///< of the trunk, to the left
   double nod = 0, look = 0;  ///< of the head: down, and to the left
@@ -31,7 +31,7 @@ std::vector<Part> MakeHumanParts(SceneKit& kit, const HumanLook& look);
 /// pelvis, x forwards, y to the left, z up.
 std::vector<RigidTransform> PlaceHumanParts(const JointAngles& joints, double height_m);
 
-/// Height of the pelvis with which the lower foot touches the floor, for a height of 1.75 m [m].
+/// Height of the pelvis with which the lower foot touches the floor, for a height of 1.85 m [m].
 double StandingPelvis(const JointAngles& joints);
 
 }  // namespace ofm
