@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "ofm/sim/sim_sequence.h"
 #include "ofm/sim/test_scene.h"
