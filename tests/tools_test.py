@@ -14,6 +14,7 @@ import check_rules  # noqa: E402
 import check_sizes  # noqa: E402
 import cover_camera  # noqa: E402
 import measure_loops  # noqa: E402
+import measure_map  # noqa: E402
 import rearrange_sequence  # noqa: E402
 
 
@@ -168,6 +169,28 @@ class Loops(unittest.TestCase):
         self.assertIn('wrong by 0.000 m, 0.00 deg', measure_loops.loop_line(loop, truth))
         loop['place_from_keyframe'][0] = 1.5
         self.assertIn('wrong by 0.500 m', measure_loops.loop_line(loop, truth))
+
+
+class MeasureMap(unittest.TestCase):
+
+    def test_without_a_networks_masks_there_are_no_rows_of_them(self):
+        cullings = {culling for _, culling, _ in measure_map.configurations(None)}
+        self.assertEqual(cullings, {'off', 'true masks'})
+        rows = list(measure_map.configurations(pathlib.Path('masks/yolo')))
+        self.assertEqual(len(rows), 3 * len(measure_map.SCENARIOS))
+        self.assertIn('perception.masks_folder=masks/yolo/desk_walking', rows[2][2])
+
+    def test_rows_are_chosen_by_all_words(self):
+        self.assertTrue(measure_map.is_wanted(None, ('desk_box', 'off')))
+        self.assertTrue(measure_map.is_wanted(['box', 'off'], ('desk_box', 'off')))
+        self.assertFalse(measure_map.is_wanted(['box', 'true'], ('desk_box', 'off')))
+
+    def test_a_row_has_shares_in_per_cent_and_lengths_in_their_units(self):
+        summary = {'trajectory': {'ate': {'translation_m': {'rmse': 0.0123}}}}
+        figures = {'resolution_m': 0.02, 'actor_voxels': 200, 'actor_voxels_occupied': 1, 'actor_residue_share': 0.005,
+                   'surface_share_mapped': 0.951, 'points': 50, 'points_off_surface': 2, 'median_distance_m': 0.0091}
+        self.assertEqual(measure_map.row('desk_box', 'off', summary, figures),
+                         '| desk_box | off | 2 cm | 1 of 200 (0.50 %) | 95.1 % | 9.1 | 4.0 % | 1.23 |')
 
 
 class CoverCamera(MadeTree):

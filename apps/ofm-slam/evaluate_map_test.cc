@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
 
@@ -18,9 +19,9 @@ class EvaluateMapCommand : public testing::Test {
  protected:
   EvaluateMapCommand() : recording_(12) {}
 
-  ProgramResult Evaluate() const {
+  ProgramResult Evaluate(const std::string& more = "") const {
     return RunProgram("evaluate-map '" + recording_.output().string() + "' '" +
-                      recording_.folder().string() + "'");
+                      recording_.folder().string() + "' " + more);
   }
   /// The percentage behind a line's name.
   static double Percentage(const ProgramResult& result, const std::string& line) {
@@ -50,6 +51,31 @@ TEST_F(EvaluateMapCommand, CullingKeepsActorsOutOfTheMapAndTheRoomIn) {
   EXPECT_LT(Percentage(with, "actors"), 5);
   EXPECT_GT(Percentage(without, "actors"), 20);
   EXPECT_GT(Percentage(with, "static"), 50);
+}
+
+TEST_F(EvaluateMapCommand, TheRoomWithoutActorsTellsWhatIsMappedAndHowWell) {
+  ASSERT_EQ(recording_.Run("--segmenter masks").exit_code, 0);
+  const std::filesystem::path base = recording_.root() / "base", json = recording_.root() / "j";
+  SimSequenceOptions options;
+  options.frames = 12;
+  options.rate_hz = 15;
+  options.camera = MakeSimCamera(240, 180);
+  options.room.people = 0;
+  WriteTumSequence(SimSequence(options), base);
+  const std::string arguments = "--static '" + base.string() + "' --json '" + json.string() + "'";
+  const ProgramResult result = Evaluate(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(Percentage(result, "surface"), 60);
+  const auto figures = nlohmann::json::parse(ReadFile(json));
+  EXPECT_EQ(figures["resolution_m"], .1);
+  EXPECT_GT(figures["surface_share_mapped"], .6);
+  EXPECT_GT(figures["points"], 500);
+  EXPECT_GT(figures["median_distance_m"], 0);
+  EXPECT_LT(figures["median_distance_m"], .03);
+  std::filesystem::remove(recording_.output() / "map.ply");
+  const ProgramResult without = Evaluate(arguments);
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err, AllOf(IsOneErrorLine(), HasSubstr("map.ply: does not exist")));
 }
 
 TEST_F(EvaluateMapCommand, BadInputIsOneLineThatNamesTheFile) {

@@ -23,7 +23,7 @@ void OctreeUpkeep::Integrate(const Job& job) {
   is_whole_ = true;
 }
 
-/// The thread. The map can be built without it, so that an error of the machine is only told.
+/// The thread. After an error Finish begins anew, and throws what is wrong for good.
 void OctreeUpkeep::Run(std::stop_token stop) {
   try {
     while (const std::optional<Job> job = jobs_.Pop(stop)) Integrate(*job);
