@@ -76,11 +76,12 @@ OctreeIntegrator::Changes OctreeIntegrator::FindChanges(const KeyframeClouds& cl
   return changes;
 }
 
-/// How far a point within the range can move; exactly 0 where the poses are equal.
+/// How far a point halfway to the range limit, where most are at most, can move; exactly 0 where
+/// the poses are equal.
 double OctreeIntegrator::Displacement_m(const RigidTransform& before,
                                         const RigidTransform& after) const {
   const double turn = (after.RotationMatrix() - before.RotationMatrix()).norm() / std::sqrt(2.);
-  return (after.translation() - before.translation()).norm() + turn * options_.range_m;
+  return (after.translation() - before.translation()).norm() + turn * options_.range_m / 2;
 }
 
 void OctreeIntegrator::Insert(Integrated& keyframe) {

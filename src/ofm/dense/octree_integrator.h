@@ -32,8 +32,8 @@ class OctreeIntegrator {
   explicit OctreeIntegrator(const DenseOptions& options);
 
   /// Takes in key frames that are new and have a usable pose, takes out those that lost theirs, and
-  /// integrates again those that a point within the range can have moved with by more than
-  /// `tolerance_m`. With 0 the octree becomes the one of exactly these poses.
+  /// integrates again those that a point halfway to the range limit can have moved with by more
+  /// than `tolerance_m`. With 0 the octree becomes the one of exactly these poses.
   IntegrationCounts Update(const KeyframeClouds& clouds, const KeyframePoseMap& world_from_camera,
                            double tolerance_m);
 
