@@ -22,6 +22,7 @@ struct SlamOptions {
   bool build_objects = true;     ///< where there is a segmenter
   bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
   bool localize_only = false;    ///< no mapping: the camera is followed in a map that was loaded
+  int keyframe_images = 24;      ///< most small pictures of keyframes that are kept; 0 = none
   PerceptionOptions perception;
   DynamicsOptions dynamics;
   OrbOptions features;
@@ -42,6 +43,9 @@ struct SlamOptions {
           "bundle adjustment over all keyframes at the end");
     visit("localize_only", self.localize_only,
           "no mapping: the camera is followed in a map that was loaded");
+    visit("keyframe_images", self.keyframe_images,
+          "most small pictures of keyframes that are kept, for the report; 0 = none",
+          Range{0, 1000});
     visit("perception", self.perception);
     visit("dynamics", self.dynamics);
     visit("features", self.features);
