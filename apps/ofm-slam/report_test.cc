@@ -24,7 +24,10 @@ class ReportCommand : public testing::Test {
   }
   static void TearDownTestSuite() { recording_.reset(); }
 
-  static std::string Out() { return "'" + recording_->output().string() + "'"; }
+  static std::string Out() {
+    std::string quoted = recording_->output().string();
+    return quoted.insert(0, 1, '\'') += '\'';
+  }
   std::filesystem::path File(const char* name) const { return folder_.path() / name; }
   static void ExpectError(const std::string& arguments, const char* reason) {
     const ProgramResult result = RunProgram(arguments);

@@ -16,13 +16,14 @@ function makeRun(run, scene) {
   return layers;
 }
 
-/** Looks at the middle of the runs' points from aside and above. */
-function frameView(camera, controls, bounds) {
+/** Looks at the middle of the bounds from above, and from where the camera was that saw them. */
+function frameView(camera, controls, bounds, viewpoint) {
   const min = new Vector3(...bounds.min), max = new Vector3(...bounds.max);
   const middle = min.clone().add(max).multiplyScalar(0.5);
   const radius = Math.max(0.5, 0.5 * max.distanceTo(min));
   const up = camera.up.clone().normalize();
-  const aside = new Vector3(1, 0.35, 0.2).addScaledVector(up, -new Vector3(1, 0.35, 0.2).dot(up)).normalize();
+  const aside = viewpoint ? new Vector3(...viewpoint).sub(middle) : new Vector3(1, 0.35, 0.2);
+  aside.addScaledVector(up, -aside.dot(up)).normalize();
   camera.position.copy(middle).addScaledVector(aside, 1.45 * radius).addScaledVector(up, 1.2 * radius);
   camera.near = 0.005 * radius;
   camera.far = 20 * radius;
@@ -96,9 +97,11 @@ class Viewer {
   }
 
   reset() {
-    const layers = Object.values(this.runs[this.state.run]);
-    const bounds = boundsOf(layers.map((layer) => trimmed(layer.places)));
-    frameView(this.camera, this.controls, bounds ?? { min: [-1, -1, -1], max: [1, 1, 1] });
+    const layers = this.runs[this.state.run];
+    const bounds = boundsOf(Object.values(layers).map((layer) => trimmed(layer.places)));
+    const path = layers.cloud && layers.trajectory ? layers.trajectory.places : [];
+    frameView(this.camera, this.controls, bounds ?? { min: [-1, -1, -1], max: [1, 1, 1] },
+      path.length > 0 ? path.slice(0, 3) : null);
     this.draw();
   }
 

@@ -11,7 +11,7 @@
 namespace ofm {
 namespace {
 
-constexpr double kLeastCell_m = 0.02, kHeadroom_m = 0.3;
+constexpr double kLeastCell_m = 0.04, kHeadroom_m = 0.3;
 constexpr int kMostCells = 500;     // along a side
 constexpr double kTrimmed = 0.002;  // of the points, on each side: far strays would shrink the map
 constexpr double kPointsPerCell = 2;  // wanted

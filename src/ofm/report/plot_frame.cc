@@ -23,7 +23,7 @@ Ticks TicksOf(const Interval& interval, double length_px, double px_per_tick) {
   return ticks;
 }
 
-constexpr double kPxPerRow = 44, kPxPerColumn = 64;
+constexpr double kPxPerRow = 36, kPxPerColumn = 64;
 
 }  // namespace
 
