@@ -6,10 +6,11 @@ set -euo pipefail
 
 packages=(
   # tools
-  build-essential ccache cmake git ninja-build python3
+  build-essential ccache cmake git ninja-build pkg-config python3
   # libraries
   libboost-dev libceres-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libfmt-dev liboctomap-dev
-  libopencv-dev libspdlog-dev libsqlite3-dev libssl-dev libyaml-cpp-dev nlohmann-json3-dev
+  libopencv-dev libpugixml-dev librsvg2-dev libspdlog-dev libsqlite3-dev libssl-dev libyaml-cpp-dev
+  nlohmann-json3-dev
   # tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev
 )

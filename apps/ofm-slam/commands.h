@@ -11,6 +11,8 @@ void AddEvaluateMapCommand(CLI::App& app);
 void AddEvaluateInpaintingCommand(CLI::App& app);
 void AddMapCommand(CLI::App& app);
 void AddObjectsCommand(CLI::App& app);
+void AddReportCommand(CLI::App& app);
+void AddPlotCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);

@@ -10,6 +10,8 @@
 
 #include "commands.h"
 #include "ofm/base/error.h"
+#include "ofm/io/atomic_file.h"
+#include "ofm/report/report_page.h"
 #include "ofm/sim/tum_writer.h"
 #include "run_session.h"
 
@@ -17,12 +19,11 @@ namespace ofm {
 namespace {
 
 constexpr const char* kFooter =
-    "Simulates a camera in a room in which people walk closely before it, and tracks it twice: "
-    "with\n"
-    "the people culled by their masks (the paper's method), and with nothing culled. Needs no "
-    "data,\n"
-    "network or connection. The recording is a TUM RGB-D folder with ground truth and masks, good\n"
-    "for 'ofm-slam run'.\n"
+    "Simulates a camera in a room in which people walk closely before it, and tracks it twice:\n"
+    "with the people culled by their masks (the paper's method), and with nothing culled. Needs "
+    "no\n"
+    "data, network or connection. report.html compares both runs. The recording is a TUM RGB-D\n"
+    "folder with ground truth and masks, good for 'ofm-slam run'.\n"
     "Examples:\n"
     "  ofm-slam demo\n"
     "  ofm-slam demo --output out/other_room --seed 5 --frames 90\n"
@@ -97,6 +98,15 @@ void PrintTable(const std::array<RunReport, 2>& reports) {
            [](const RunReport& report) { return fmt::format("{:.1f} s", report.outcome.wall_s); });
 }
 
+/// Compares both runs; gives the file.
+std::filesystem::path WriteReport(const std::filesystem::path& output) {
+  const std::filesystem::path file = output / "report.html";
+  const ReportData data = LoadReportData({output / "with_culling", output / "without_culling"},
+                                         output / "sequence" / "groundtruth.txt");
+  WriteFileAtomically(file, ReportPage(data, OFM_VERSION));
+  return file;
+}
+
 void Demo(const DemoArguments& arguments) {
   cv::setNumThreads(1);  // as in run
   PrepareOutputFolder(arguments.output);
@@ -108,13 +118,15 @@ void Demo(const DemoArguments& arguments) {
                               RunDemo(arguments, "without_culling", DynamicsMode::kOff)};
   fmt::print("\n");
   PrintTable(reports);
+  const std::filesystem::path report = WriteReport(arguments.output);
   const std::string folder = arguments.output.string();
   fmt::print(
       "\nATE: error of the positions after alignment to the truth; RPE: error of the motion\n"
       "{0}/sequence         the recording, with ground truth and masks\n"
       "{0}/with_culling     trajectory, map and figures with the people culled\n"
-      "{0}/without_culling  the same with nothing culled\n",
-      folder);
+      "{0}/without_culling  the same with nothing culled\n"
+      "\nOpen this in a browser: {1}\n",
+      folder, report.string());
 }
 
 }  // namespace

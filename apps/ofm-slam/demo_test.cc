@@ -35,6 +35,10 @@ TEST(Demo, RunsTheSameRecordingWithAndWithoutCulling) {
   EXPECT_EQ(without["counts"]["mean_masked_share"], 0.0);
   EXPECT_LT(with["trajectory"]["ate"]["translation_m"]["rmse"], 0.02);
   EXPECT_TRUE(std::filesystem::exists(output / "with_culling" / "map.ot"));
+  EXPECT_THAT(result.out,
+              HasSubstr("Open this in a browser: " + (output / "report.html").string()));
+  EXPECT_THAT(ReadFile(output / "report.html").substr(0, 60000),
+              AllOf(HasSubstr("with_culling, without_culling"), HasSubstr("side by side")));
 }
 
 TEST(Demo, ItsRecordingIsGoodForRun) {

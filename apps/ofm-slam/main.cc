@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  ofm-slam demo\n"
     "  ofm-slam run desk --camera tum-fr1 --output out\n"
     "  ofm-slam evaluate out/trajectory.txt desk/groundtruth.txt --sequence desk\n"
+    "  ofm-slam report out\n"
     "  ofm-slam run --help";
 
 void LogToStderr() {
@@ -43,6 +44,8 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddEvaluateInpaintingCommand(app);
   ofm::AddMapCommand(app);
   ofm::AddObjectsCommand(app);
+  ofm::AddReportCommand(app);
+  ofm::AddPlotCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddSimulateCommand(app);
   ofm::AddModelsCommand(app);

@@ -19,6 +19,8 @@ constexpr const char* kFooter =
     "map.ply (coloured, labelled cloud), map.ot and map.bt (OctoMap), map_labels.csv,\n"
     "map.pgm and map.yaml (a grid for nav2, where there is a floor),\n"
     "objects.db and objects.json (with a segmenter; see ofm-slam objects),\n"
+    "frames.csv and times.csv (state, culled share, CPU time of each frame), keyframes/ (small\n"
+    "pictures with masks; 'ofm-slam report' shows them),\n"
     "config.yaml, camera.yaml and summary.json. Frames of parts of the map that were begun after "
     "a\n"
     "loss and never joined to the rest are in trajectory_submap_N.txt, in their own worlds.\n"

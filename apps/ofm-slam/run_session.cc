@@ -17,6 +17,7 @@
 #include "ofm/map/map_file.h"
 #include "ofm/map/submap.h"
 #include "ofm/perception/make_segmenter.h"
+#include "ofm/pipeline/keyframe_images.h"
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/pipeline/trajectory_log.h"
@@ -180,6 +181,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   std::optional<HiddenPixelRecorder> hidden;
   if (!settings.write_inpainted.empty()) hidden.emplace(settings.write_inpainted);
   std::unique_ptr<LiveView> view = OpenView(settings, camera, *segmenter, *source.frames);
+  KeyframeImages keyframe_images(settings.options.keyframe_images);
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -191,6 +193,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (mask_writer) context.observers.push_back(&*mask_writer);
     if (hidden) context.observers.push_back(&*hidden);
     if (view) context.observers.push_back(view.get());
+    context.observers.push_back(&keyframe_images);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -214,6 +217,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   report.description.evaluation_in_map =
       EvaluateInMap(truth, start_map.get(), report.outcome.trajectory);
   WriteResults(settings.output, report.outcome, settings.options, report.description);
+  WriteKeyframeImages(settings.output / "keyframes", keyframe_images.images());
   SaveFinalMap(settings, camera, report);
   if (hidden) {
     WriteInpaintedFrames(settings.write_inpainted, *sequence, report.outcome,

@@ -25,11 +25,12 @@ TEST(Run, WritesAllFilesAndPrintsASummary) {
   EXPECT_THAT(result.out, AllOf(HasSubstr("12 tracked of 12 (100.0 %)"), HasSubstr("keyframes"),
                                 HasSubstr("against ground truth"),
                                 HasSubstr("results in " + recording.output().string())));
-  for (const char* name :
-       {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply", "map.ot", "map.bt",
-        "map_labels.csv", "config.yaml", "camera.yaml", "summary.json"}) {
+  for (const char* name : {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",
+                           "map.ot", "map.bt", "map_labels.csv", "config.yaml", "camera.yaml",
+                           "summary.json", "frames.csv", "times.csv"}) {
     EXPECT_TRUE(std::filesystem::is_regular_file(recording.output() / name)) << name;
   }
+  EXPECT_FALSE(std::filesystem::is_empty(recording.output() / "keyframes"));
   EXPECT_EQ(CountPoses(recording.output() / "trajectory.txt"), 12U);
   const json summary = Summary(recording.output());
   EXPECT_EQ(summary["seed"], 5);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,41 +44,30 @@ std::vector<PosePair> FindTruth(const Trajectory& estimate, const Trajectory& gr
   return poses;
 }
 
-/// The errors of the pairs so far.
-class Errors {
- public:
-  explicit Errors(const std::vector<PosePair>& poses) : poses_(poses) {}
+/// The error of the motion from one pose to the other; empty where one has no truth.
+std::optional<RigidTransform> ErrorOfPair(const PosePair& a, const PosePair& b) {
+  if (!a.has_truth || !b.has_truth) return {};
+  return (a.estimate.Inverse() * b.estimate) * (b.truth.Inverse() * a.truth);
+}
 
-  void Add(std::size_t i, std::size_t j) {
-    const PosePair &a = poses_[i], &b = poses_[j];
-    if (!a.has_truth || !b.has_truth) return;
-    const RigidTransform error =
-        (a.estimate.Inverse() * b.estimate) * (b.truth.Inverse() * a.truth);
-    translations_m_.push_back(error.translation().norm());
-    rotations_deg_.push_back(error.RotationAngle() * 180 / std::numbers::pi);
-  }
+double Degrees(const RigidTransform& error) {
+  return error.RotationAngle() * 180 / std::numbers::pi;
+}
 
-  RpeResult Summarize() const {
-    return {ComputeStatistics(translations_m_), ComputeStatistics(rotations_deg_)};
-  }
-
- private:
-  const std::vector<PosePair>& poses_;
-  std::vector<double> translations_m_, rotations_deg_;
-};
-
-void AddFixedDelta(const std::vector<std::int64_t>& stamps, double delta_s, Errors& errors) {
+template <class Visit>
+void ForPairsOfFixedDelta(const std::vector<std::int64_t>& stamps, double delta_s, Visit&& visit) {
   const std::int64_t delta_ns = SecondsToNanoseconds(delta_s);
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const std::size_t j = NearestStamp(stamps, stamps[i] + delta_ns);
-    if (j != stamps.size() - 1) errors.Add(i, j);
+    if (j != stamps.size() - 1) visit(i, j);
   }
 }
 
-void AddAll(std::size_t count, const RpeOptions& options, Errors& errors) {
+template <class Visit>
+void ForAllPairs(std::size_t count, const RpeOptions& options, Visit&& visit) {
   if (options.max_pairs == 0 || count * count <= options.max_pairs) {
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) errors.Add(i, j);
+      for (std::size_t j = 0; j < count; ++j) visit(i, j);
     }
     return;
   }
@@ -85,30 +75,60 @@ void AddAll(std::size_t count, const RpeOptions& options, Errors& errors) {
   const auto bound = static_cast<std::uint32_t>(count);
   for (std::size_t k = 0; k < options.max_pairs; ++k) {
     const std::uint32_t i = UniformIndex(engine, bound), j = UniformIndex(engine, bound);
-    errors.Add(i, j);
+    visit(i, j);
   }
+}
+
+/// Calls `visit` with the indices of both poses of every pair.
+template <class Visit>
+void ForPairs(const Trajectory& estimate, const RpeOptions& options, Visit&& visit) {
+  switch (options.pairs) {
+    case RpePairs::kConsecutive:
+      for (std::size_t i = 0; i + 2 < estimate.size(); ++i) visit(i, i + 1);
+      break;
+    case RpePairs::kFixedDelta:
+      ForPairsOfFixedDelta(StampsOf(estimate), options.delta_s, visit);
+      break;
+    case RpePairs::kAll:
+      ForAllPairs(estimate.size(), options, visit);
+      break;
+  }
+}
+
+void Require(const Trajectory& groundtruth, const RpeOptions& options) {
+  OFM_CHECK(options.delta_s > 0);
+  if (groundtruth.size() < 2) throw Error("the ground truth holds fewer than 2 poses");
 }
 
 }  // namespace
 
 RpeResult ComputeRpe(const Trajectory& estimate, const Trajectory& groundtruth,
                      const RpeOptions& options) {
-  OFM_CHECK(options.delta_s > 0);
-  if (groundtruth.size() < 2) throw Error("the ground truth holds fewer than 2 poses");
+  Require(groundtruth, options);
   const std::vector<PosePair> poses = FindTruth(estimate, groundtruth);
-  Errors errors(poses);
-  switch (options.pairs) {
-    case RpePairs::kConsecutive:
-      for (std::size_t i = 0; i + 2 < poses.size(); ++i) errors.Add(i, i + 1);
-      break;
-    case RpePairs::kFixedDelta:
-      AddFixedDelta(StampsOf(estimate), options.delta_s, errors);
-      break;
-    case RpePairs::kAll:
-      AddAll(poses.size(), options, errors);
-      break;
-  }
-  return errors.Summarize();
+  std::vector<double> translations_m, rotations_deg;
+  ForPairs(estimate, options, [&](std::size_t i, std::size_t j) {
+    const auto error = ErrorOfPair(poses[i], poses[j]);
+    if (!error) return;
+    translations_m.push_back(error->translation().norm());
+    rotations_deg.push_back(Degrees(*error));
+  });
+  return {ComputeStatistics(translations_m), ComputeStatistics(rotations_deg)};
+}
+
+std::vector<MotionError> ComputeMotionErrors(const Trajectory& estimate,
+                                             const Trajectory& groundtruth,
+                                             const RpeOptions& options) {
+  OFM_CHECK(options.pairs != RpePairs::kAll);
+  Require(groundtruth, options);
+  const std::vector<PosePair> poses = FindTruth(estimate, groundtruth);
+  std::vector<MotionError> errors;
+  ForPairs(estimate, options, [&](std::size_t i, std::size_t j) {
+    const auto error = ErrorOfPair(poses[i], poses[j]);
+    if (!error) return;
+    errors.push_back({estimate[i].stamp_ns, error->translation().norm(), Degrees(*error)});
+  });
+  return errors;
 }
 
 }  // namespace ofm

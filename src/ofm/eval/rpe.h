@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "ofm/eval/statistics.h"
 #include "ofm/geometry/trajectory.h"
@@ -38,5 +39,17 @@ struct RpeResult {
 /// where the ground truth holds fewer than two poses.
 RpeResult ComputeRpe(const Trajectory& estimate, const Trajectory& groundtruth,
                      const RpeOptions& options = {});
+
+/// The error of one pair.
+struct MotionError {
+  std::int64_t stamp_ns = 0;  ///< of the pair's first pose
+  double translation_m = 0, rotation_deg = 0;
+};
+
+/// The errors that ComputeRpe is of, in order of time; `options.pairs` is not kAll, which has no
+/// such order.
+std::vector<MotionError> ComputeMotionErrors(const Trajectory& estimate,
+                                             const Trajectory& groundtruth,
+                                             const RpeOptions& options = {});
 
 }  // namespace ofm

@@ -110,6 +110,30 @@ TEST(Rpe, WithoutAPairTheCountIsZero) {
   EXPECT_EQ(ComputeRpe({}, Curve(30), {.pairs = RpePairs::kConsecutive}).rotation_deg.count, 0u);
 }
 
+TEST(MotionErrors, AreThoseOfTheStatisticsInOrderOfTime) {
+  const Trajectory truth = Curve(30);
+  const Trajectory estimate = WithDrift(truth, {ExpSo3({0, 0, 0.01}), {0.003, 0, 0.004}});
+  for (const RpePairs pairs : {RpePairs::kConsecutive, RpePairs::kFixedDelta}) {
+    const RpeOptions options = {.pairs = pairs, .delta_s = 0.5};
+    const RpeResult rpe = ComputeRpe(estimate, truth, options);
+    const std::vector<MotionError> errors = ComputeMotionErrors(estimate, truth, options);
+    std::vector<double> translations_m, rotations_deg;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      EXPECT_EQ(errors[i].stamp_ns, estimate[i].stamp_ns);
+      translations_m.push_back(errors[i].translation_m);
+      rotations_deg.push_back(errors[i].rotation_deg);
+    }
+    EXPECT_EQ(ComputeStatistics(translations_m).rmse, rpe.translation_m.rmse);
+    EXPECT_EQ(ComputeStatistics(rotations_deg).max, rpe.rotation_deg.max);
+  }
+}
+
+TEST(MotionErrors, ArePairsInTime) {
+  EXPECT_THROW(ComputeMotionErrors(Curve(5), Curve(5), {.pairs = RpePairs::kAll}),
+               std::logic_error);
+  EXPECT_TRUE(ComputeMotionErrors({}, Curve(5)).empty());
+}
+
 TEST(Rpe, WantsGroundTruth) {
   EXPECT_EQ(ErrorOf([] { ComputeRpe(Curve(5), Curve(1)); }),
             "the ground truth holds fewer than 2 poses");

@@ -24,6 +24,7 @@ struct SlamOptions {
   bool final_adjustment = true;  ///< bundle adjustment over all keyframes at the end
   bool localize_only = false;    ///< no mapping: the camera is followed in a map that was loaded
   std::string vocabulary = {};   ///< file that places are recognised by; empty = the built-in one
+  int keyframe_images = 24;      ///< most small pictures of keyframes that are kept; 0 = none
   PerceptionOptions perception;
   DynamicsOptions dynamics;
   OrbOptions features;
@@ -46,6 +47,9 @@ struct SlamOptions {
           "no mapping: the camera is followed in a map that was loaded");
     visit("vocabulary", self.vocabulary,
           "file that places are recognised by (ofm-slam vocabulary); empty = the built-in one");
+    visit("keyframe_images", self.keyframe_images,
+          "most small pictures of keyframes that are kept, for the report; 0 = none",
+          Range{0, 1000});
     visit("perception", self.perception);
     visit("dynamics", self.dynamics);
     visit("features", self.features);

@@ -16,6 +16,7 @@
 #include "ofm/io/trajectory_file.h"
 #include "ofm/objects/object_database.h"
 #include "ofm/objects/object_json.h"
+#include "ofm/pipeline/frame_table.h"
 
 namespace ofm {
 namespace {
@@ -234,6 +235,9 @@ void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome
   SaveTrajectory(folder / "trajectory_live.txt", outcome.live_trajectory);
   SaveTrajectory(folder / "keyframes.txt", outcome.keyframe_trajectory);
   WriteUnjoined(folder, outcome);
+  WriteFileAtomically(folder / "frames.csv", FormatFrames(outcome.frames));
+  WriteFileAtomically(folder / "times.csv",
+                      FormatFrameTimes(TimesOfFrames(outcome.frames, outcome.times)));
   SlamOptions printed = options;
   WriteFileAtomically(folder / "config.yaml", PrintOptionsYaml(OptionFields(printed)));
   PinholeCamera camera = description.camera;

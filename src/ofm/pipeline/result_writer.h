@@ -28,12 +28,12 @@ struct RunDescription {
   std::optional<CullingCounts> culling;  ///< where there are true masks
 };
 
-/// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, map.ply or map.pcd or both
-/// (dense.cloud_file.format), map.ot, map.bt, map_labels.csv, map.pgm and map.yaml (where a floor
-/// was found), objects.db, objects.json, camera.yaml, config.yaml and summary.json, each one
-/// atomically, and trajectory_submap_N.txt for frames whose place in their world was never found;
-/// such files of an earlier run are removed.
-/// Throws Error where one cannot be written; those before it are then there.
+/// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, frames.csv, times.csv, map.ply or
+/// map.pcd or both (dense.cloud_file.format), map.ot, map.bt, map_labels.csv, map.pgm and map.yaml
+/// (where a floor was found), objects.db, objects.json, camera.yaml, config.yaml and summary.json,
+/// each one atomically, and trajectory_submap_N.txt for frames whose place in their world was never
+/// found; such files of an earlier run are removed. Throws Error where one cannot be written; those
+/// before it are then there.
 void WriteResults(const std::filesystem::path& folder, const RunOutcome& outcome,
                   const SlamOptions& options, const RunDescription& description);
 

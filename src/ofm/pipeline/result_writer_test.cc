@@ -12,6 +12,7 @@
 #include "ofm/io/read_file.h"
 #include "ofm/io/test_folder.h"
 #include "ofm/io/trajectory_file.h"
+#include "ofm/pipeline/frame_table.h"
 #include "ofm/pipeline/test_support.h"
 
 namespace ofm {
@@ -23,9 +24,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::array kFiles = {
-    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",     "map.ot",
-    "map.bt",         "map_labels.csv",      "map.pgm",       "map.yaml",    "config.yaml",
-    "camera.yaml",    "summary.json",        "objects.db",    "objects.json"};
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply",      "map.ot",
+    "map.bt",         "map_labels.csv",      "map.pgm",       "map.yaml",     "config.yaml",
+    "camera.yaml",    "summary.json",        "objects.db",    "objects.json", "frames.csv",
+    "times.csv"};
 
 /// What a real run leaves.
 RunOutcome RunOnce(const Recording& recording) {
@@ -69,6 +71,10 @@ TEST(WriteResults, FilesAreReadBackAsWhatTheyAre) {
   WriteResults(folder.path(), outcome, test::QuickOptions(), Describe(recording));
   EXPECT_EQ(LoadTrajectory(folder.path() / "trajectory.txt").size(), outcome.trajectory.size());
   EXPECT_EQ(LoadTrajectory(folder.path() / "keyframes.txt").size(), outcome.counts.keyframes);
+  EXPECT_EQ(LoadFrames(folder.path() / "frames.csv").size(), 5U);
+  const FrameTimes times = LoadFrameTimes(folder.path() / "times.csv");
+  EXPECT_EQ(times.stamps_ns.size(), 5U);
+  EXPECT_THAT(times.stages, testing::IsSupersetOf({"features", "tracking"}));
   EXPECT_EQ(LoadCamera(folder.path() / "camera.yaml").fx, recording.sequence.camera().fx);
   EXPECT_THAT(ReadFile(folder.path() / "map.ply"), testing::StartsWith("ply\n"));
   const std::unique_ptr<octomap::AbstractOcTree> tree(
@@ -104,7 +110,7 @@ TEST(WriteResults, SameSeedGivesTheSameBytesInEveryFile) {
     WriteResults(folder->path(), RunOnce(recording), test::QuickOptions(), Describe(recording));
   }
   for (const std::string name : kFiles) {
-    if (name == "summary.json") continue;
+    if (name == "summary.json" || name == "times.csv") continue;
     EXPECT_TRUE(ReadFile(first.path() / name) == ReadFile(second.path() / name)) << name;
   }
   EXPECT_EQ(WithoutTimings(first.path() / "summary.json"),

@@ -11,6 +11,7 @@
 #include "ofm/loop/loop_closer.h"
 #include "ofm/map/map.h"
 #include "ofm/objects/scene_object.h"
+#include "ofm/pipeline/frame_record.h"
 
 namespace ofm {
 
@@ -55,6 +56,7 @@ struct RunOutcome {
   std::optional<SemanticMap> semantic_map;
   std::optional<ObjectInventory> objects;  ///< where a segmenter knows classes
   std::vector<std::string> class_names;
+  std::vector<FrameRecord> frames;  ///< of every frame, in order of time
   StageTimes times;
   RunCounts counts;
   LoopCounts loop_counts;

@@ -1,5 +1,7 @@
 #include "ofm/pipeline/tracking_loop.h"
 
+#include <algorithm>
+
 #include "ofm/map/submap.h"
 
 namespace ofm {
@@ -9,6 +11,18 @@ namespace {
 SubmapId SubmapOf(const TrackingResult& result, const MapSnapshot* map) {
   if (map == nullptr || map->keyframe_count == 0) return SubmapId(0);
   return map->FindSubmap(result.reference);
+}
+
+FrameRecord MakeRecord(const PreparedFrame& prepared, const TrackingResult& result) {
+  FrameRecord record;
+  record.stamp_ns = prepared.frame.stamp_ns;
+  record.status = result.status;
+  record.is_keyframe = result.keyframe.has_value();
+  record.masked_share = prepared.dynamic.masked_share;
+  record.instances = prepared.segmentation.instances.size();
+  record.features = prepared.features->keypoints.size();
+  record.inliers = static_cast<std::size_t>(std::max(result.inliers, 0));
+  return record;
 }
 
 }  // namespace
@@ -40,6 +54,7 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   const bool lost = result.status == TrackingStatus::kLost;
   if (lost && !lost_) ++losses_;
   lost_ = lost;
+  frames_.push_back(MakeRecord(prepared, result));
   masked_sum_ += prepared.dynamic.masked_share;
   if (slam_.makes_objects()) {
     ScopedStageTimer timer(times_, "object_tracks");
@@ -81,6 +96,7 @@ void TrackingLoop::Finish(const BackEnd& back_end, RunOutcome& outcome) {
         {submap.id, submap.keyframes, log_.Optimized(*outcome.map, submap.id)});
   }
   outcome.class_names = slam_.front_end().class_names();
+  outcome.frames = std::move(frames_);
   outcome.times.Merge(times_);
   outcome.times.Merge(back_end.times());
   outcome.counts.frames = log_.frames();

@@ -30,6 +30,7 @@ class TrackingLoop {
   const RunContext& context_;
   TrajectoryLog log_;
   TrackLog object_tracks_;
+  std::vector<FrameRecord> frames_;
   StageTimes times_;
   std::vector<Sighting> sightings_;  // since the last keyframe
   std::size_t keyframes_made_ = 0, losses_ = 0, submaps_begun_ = 0;

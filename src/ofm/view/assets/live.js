@@ -1,4 +1,4 @@
-/*! The live view of ofm-slam. Copyright the ofm-slam authors, Apache-2.0.
+/*! A 3-D view of ofm-slam. Copyright the ofm-slam authors, Apache-2.0.
 Holds three.js 0.170.0 (https://threejs.org):
 
 The MIT License
