@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -16,21 +17,32 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// The first of `bytes` from `begin` on that is not `value`; the end where there is none.
+std::size_t SkipRun(const std::uint8_t* bytes, std::size_t begin, std::size_t end,
+                    std::uint8_t value) {
+  std::uint64_t eight = 0, same = 0;
+  std::memset(&same, value, sizeof(same));
+  while (begin + sizeof(eight) <= end) {
+    std::memcpy(&eight, bytes + begin, sizeof(eight));
+    if (eight != same) break;
+    begin += sizeof(eight);
+  }
+  while (begin < end && bytes[begin] == value) ++begin;
+  return begin;
+}
+
 /// Lengths of the runs of 0 and 1, down the columns.
 std::vector<int> EncodeRuns(const cv::Mat& mask) {
-  const cv::Mat columns = mask.t();  // continuous
+  const cv::Mat columns = cv::Mat(mask.t()) != 0;  // continuous, 0 and 255
   std::vector<int> runs;
-  bool is_set = false;
-  int length = 0;
-  for (std::size_t i = 0; i < columns.total(); ++i) {
-    if ((columns.data[i] != 0) != is_set) {
-      runs.push_back(length);
-      is_set = !is_set;
-      length = 0;
-    }
-    ++length;
-  }
-  runs.push_back(length);
+  std::uint8_t value = 0;
+  std::size_t begin = 0;
+  do {
+    const std::size_t end = SkipRun(columns.data, begin, columns.total(), value);
+    runs.push_back(static_cast<int>(end - begin));
+    begin = end;
+    value = static_cast<std::uint8_t>(~value);
+  } while (begin < columns.total());
   return runs;
 }
 
