@@ -86,12 +86,14 @@ Segmentation MaskFolderSegmenter::Segment(const RgbdFrame& frame) {
                 "masks are found by the colour file's name, and this source gives none");
   }
   const std::filesystem::path list = folder_.path / (frame.name + ".json");
-  if (std::filesystem::exists(list)) {
+  const std::filesystem::path path = folder_.path / (frame.name + ".png");
+  const bool image_counts =
+      folder_.preferred == MaskFiles::kImages && std::filesystem::exists(path);
+  if (std::filesystem::exists(list) && !image_counts) {
     Segmentation segmentation = LoadInstances(list, frame.color.size(), folder_.class_names);
     segmentation.frame_id = frame.id;
     return segmentation;
   }
-  const std::filesystem::path path = folder_.path / (frame.name + ".png");
   const cv::Mat ids = ReadInstanceImage(path, frame.color.size());
   const auto extents = ids.depth() == CV_8U ? FindInstances<std::uint8_t>(ids, path)
                                             : FindInstances<std::uint16_t>(ids, path);

@@ -9,16 +9,24 @@
 
 namespace ofm {
 
+/// What counts where a frame has both files.
+enum class MaskFiles {
+  kLists,   ///< NAME.json: what a network would find
+  kImages,  ///< NAME.png: what truly moves
+};
+
 /// What a folder of masks holds.
 struct MaskFolder {
   std::filesystem::path path;
   std::vector<std::string> class_names;  ///< mask_class is added where it is not among them
-  std::string mask_class = "person";     ///< class of every instance
+  std::string mask_class = "person";     ///< class of every instance of an image
+  MaskFiles preferred = MaskFiles::kLists;
 };
 
-/// For the frame called NAME reads FOLDER/NAME.json where there is one (see instance_file.h: with
-/// classes, scores and overlaps), else FOLDER/NAME.png: one channel of 8 or 16 bits, the frame's
-/// size, 0 = static, k = instance k. These have the score 1 and are ordered by number.
+/// For the frame called NAME reads FOLDER/NAME.json (see instance_file.h: with classes, scores and
+/// overlaps) or FOLDER/NAME.png, the preferred one where there are both. An image has one channel
+/// of 8 or 16 bits and the frame's size; 0 = static, k = instance k. Its instances have the score 1
+/// and are ordered by number.
 class MaskFolderSegmenter : public Segmenter {
  public:
   /// Throws Error where the folder does not exist.

@@ -21,7 +21,7 @@ cv::Mat UnionOf(const Segmentation& segmentation, cv::Size size) {
 }  // namespace
 
 CullingMeter::CullingMeter(const std::filesystem::path& true_masks, const OrbOptions& features)
-    : truth_(MaskFolder{true_masks, {}, "person"}), extractor_(features) {}
+    : truth_(MaskFolder{true_masks, {}, "person", MaskFiles::kImages}), extractor_(features) {}
 
 void CullingMeter::OnFrame(const FrameReport& report) {
   const RgbdFrame& frame = report.prepared.frame;

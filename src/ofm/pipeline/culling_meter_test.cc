@@ -59,6 +59,12 @@ TEST_F(CullingMeterTest, WithoutAMaskEverythingIsKept) {
   EXPECT_EQ(counts.StaticShareKept(), 1);
 }
 
+TEST_F(CullingMeterTest, WhatTrulyMovesCountsAndNotWhatANetworkWouldFind) {
+  const CullingCounts without = Count();
+  folder_.Write("1.5.json", "[]");
+  EXPECT_EQ(Count().actor_features, without.actor_features);
+}
+
 TEST_F(CullingMeterTest, EmptyMaskMasksNothing) {
   prepared_.dynamic.mask.release();
   const CullingCounts counts = Count();

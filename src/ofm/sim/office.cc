@@ -15,6 +15,22 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLeft_m = -3.4, kRight_m = 3.4, kFront_m = -2.8, kBack_m = 4.0, kHeight_m = 2.7;
 constexpr double kDesk_m = 0.74;
 
+/// What is seen through the door, whose middle is at `door`: a piece of a passage.
+void AddPassage(SceneKit& kit, const Vector2d& door) {
+  constexpr double kHalfLength_m = 2.5, kWidth_m = 0.9;
+  const TexturePtr wall = kit.Paint(Material::kPlaster, {150, 165, 140});
+  const Vector2d from = door - Vector2d(kHalfLength_m, kWidth_m);
+  const Vector2d to = door + Vector2d(kHalfLength_m, 0);
+  AddFloor(kit, {from, to, 0, kit.Paint(Material::kTiles, {170, 170, 165})});
+  AddCeiling(kit, {from, to, kHeight_m, kit.Paint(Material::kCeiling, {218, 222, 222})});
+  kit.Add("", Placed({door.x(), from.y(), kHeight_m / 2}),
+          {kit.Box({kHalfLength_m, 0.02, kHeight_m / 2}, {}, wall)});
+  for (const double x : {from.x(), to.x()}) {
+    kit.Add("", Placed({x, door.y() - kWidth_m / 2, kHeight_m / 2}),
+            {kit.Box({0.02, kWidth_m / 2, kHeight_m / 2}, {}, wall)});
+  }
+}
+
 void AddShell(SceneKit& kit) {
   const TexturePtr wall = kit.Paint(Material::kPlaster, {196, 208, 212});
   const TexturePtr accent = kit.Paint(Material::kPlaster, {150, 165, 140});
@@ -30,8 +46,7 @@ void AddShell(SceneKit& kit) {
   view.glow = 0.3;  // the room's light is added
   kit.Add("", {}, {view});
   AddDoor(kit, {{r - 1.0, f}, kPi, 0.95, 2.03, {}});
-  kit.Add("", Placed({r - 1.5, f - 0.9, 1.2}),
-          {kit.Box({0.8, 0.02, 1.2}, {}, kit.Paint(Material::kPlaster, {150, 165, 140}))});
+  AddPassage(kit, {r - 1.5, f});
 }
 
 void AddFurniture(SceneKit& kit) {
