@@ -1,19 +1,12 @@
 // The map as it grows, in 3-D.
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Matrix4,
-  PerspectiveCamera, Points, PointsMaterial, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
+  AmbientLight, BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Matrix4,
+  PerspectiveCamera, Points, PointsMaterial, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
+import { linear } from '../shared/colors.js';
 import { colorOfLabel } from './messages.js';
-
-function linear(bytes) {
-  const color = new Color(), values = new Float32Array(bytes.length);
-  for (let i = 0; i < bytes.length; i += 3) {
-    color.setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, SRGBColorSpace).toArray(values, i);
-  }
-  return values;
-}
 
 /** The edges of what a camera sees, `depth` metres deep. */
 function frustum(depth, color) {

@@ -1,22 +1,14 @@
 // What is drawn of a run: its cloud, its octree and its trajectory.
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, InstancedBufferAttribute, InstancedMesh, Matrix4,
-  MeshLambertMaterial, Points, PointsMaterial, SRGBColorSpace,
+  BoxGeometry, BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4,
+  MeshLambertMaterial, Points, PointsMaterial,
 } from 'three';
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 
+import { linear } from '../shared/colors.js';
 import { bytesOf, floatsOf, labelColors, placesOf } from './decode.js';
-
-/** Colours as the renderer wants them: linear, 0 to 1. */
-function linear(bytes) {
-  const color = new Color(), values = new Float32Array(bytes.length);
-  for (let i = 0; i < bytes.length; i += 3) {
-    color.setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, SRGBColorSpace).toArray(values, i);
-  }
-  return values;
-}
 
 /** Both colourings of points or voxels. */
 function coloursOf(part, scene) {

@@ -3,7 +3,7 @@
 namespace ofm {
 
 Rgb LabelColor(std::uint8_t class_id) {
-  if (class_id == kNoLabel) return {200, 200, 200};
+  if (class_id == kNoLabel) return kUnlabelledColor;
   // Every third bit of the number goes to one channel, the lowest becoming the highest there.
   Rgb color;
   unsigned bits = class_id + 1U;

@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ofm/dense/label_color.h"
 #include "ofm/report/error_figures.h"
-#include "ofm/report/label_colors.h"
+#include "ofm/report/hex_color.h"
 #include "ofm/report/map_figure.h"
 #include "ofm/report/map_image.h"
 #include "ofm/report/report_page.h"

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "ofm/dense/label_color.h"
 #include "ofm/io/read_file.h"
-#include "ofm/report/label_colors.h"
+#include "ofm/report/hex_color.h"
 #include "ofm/report/map_figure.h"
 #include "ofm/report/plot_svg.h"
 #include "ofm/report/scene_json.h"

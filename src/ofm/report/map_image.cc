@@ -6,7 +6,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "ofm/report/label_colors.h"
+#include "ofm/dense/label_color.h"
 
 namespace ofm {
 namespace {

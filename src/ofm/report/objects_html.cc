@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
+#include "ofm/dense/label_color.h"
+#include "ofm/report/hex_color.h"
 #include "ofm/report/html_parts.h"
-#include "ofm/report/label_colors.h"
 #include "ofm/report/text_encoding.h"
 
 namespace ofm {

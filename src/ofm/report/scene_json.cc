@@ -6,7 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "ofm/report/label_colors.h"
+#include "ofm/dense/label_color.h"
+#include "ofm/report/hex_color.h"
 #include "ofm/report/map_figure.h"
 #include "ofm/report/text_encoding.h"
 
