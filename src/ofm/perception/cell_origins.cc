@@ -30,26 +30,41 @@ struct LastFrame {
   const cv::Mat& depth_m;
 };
 
-/// The origin of a cell that was at `place` (column, row) in the last frame.
+/// The origin of a cell of this depth if it goes on the one at (x, y), `offset` away.
+std::optional<cv::Vec2f> OriginOver(int x, int y, const cv::Vec2f& offset, float depth_m,
+                                    const LastFrame& last) {
+  if (x < 0 || y < 0 || x >= last.depth_m.cols || y >= last.depth_m.rows) return {};
+  if (Difference(depth_m, last.depth_m.at<float>(y, x)) > 1) return {};
+  const cv::Vec2f& known = last.origins.at<cv::Vec2f>(y, x);
+  if (!IsKnown(known)) return {};
+  return known + offset;
+}
+
+/// The origin of a cell that was at `place` (column, row) in the last frame: over the nearest of
+/// the four cells around that has one and a like depth.
 cv::Vec2f OriginOf(const cv::Vec2f& place, float depth_m, const LastFrame& last) {
-  const int left = static_cast<int>(std::floor(place[0]));
-  const int top = static_cast<int>(std::floor(place[1]));
-  cv::Vec2f origin = kUnknown;
+  const float left = std::floor(place[0]), top = std::floor(place[1]);
+  const std::array<float, 2> dx{place[0] - left, place[0] - left - 1};
+  const std::array<float, 2> dy{place[1] - top, place[1] - top - 1};
+  const auto over = [&](int right, int below) {
+    return OriginOver(static_cast<int>(left) + right, static_cast<int>(top) + below,
+                      {dx[right], dy[below]}, depth_m, last);
+  };
+  const int near_x = dx[0] > 0.5F ? 1 : 0, near_y = dy[0] > 0.5F ? 1 : 0;
+  if (const auto origin = over(near_x, near_y)) return *origin;
+  cv::Vec2f nearest = kUnknown;
   float least = 2;
-  for (int y = std::max(top, 0); y <= std::min(top + 1, last.depth_m.rows - 1); ++y) {
-    for (int x = std::max(left, 0); x <= std::min(left + 1, last.depth_m.cols - 1); ++x) {
-      const float difference = Difference(depth_m, last.depth_m.at<float>(y, x));
-      const cv::Vec2f offset(place[0] - static_cast<float>(x), place[1] - static_cast<float>(y));
-      const float cost = std::abs(offset[0]) + std::abs(offset[1]);
-      if (difference > 1 || cost >= least) continue;
-      if (std::abs(offset[0]) >= 1 || std::abs(offset[1]) >= 1) continue;
-      const cv::Vec2f& known = last.origins.at<cv::Vec2f>(y, x);
-      if (!IsKnown(known)) continue;
+  for (const int below : {0, 1}) {
+    for (const int right : {0, 1}) {
+      const float cost = std::abs(dx[right]) + std::abs(dy[below]);
+      if (cost >= least || dx[right] <= -1 || dy[below] <= -1) continue;
+      const auto origin = over(right, below);
+      if (!origin) continue;
       least = cost;
-      origin = known + offset;
+      nearest = *origin;
     }
   }
-  return origin;
+  return nearest;
 }
 
 /// The neighbour of `cell` that has an origin and the most similar depth, if that is like its own.

@@ -2,6 +2,9 @@
 
 #include <chrono>
 
+#include "ofm/base/thread_priority.h"
+#include "ofm/pipeline/thread_urgency.h"
+
 namespace ofm {
 namespace {
 
@@ -19,6 +22,7 @@ void BackgroundAdjustment::Start(std::shared_ptr<const MapSnapshot> map) {
   Cancel();
   std::packaged_task<FinishedAdjustment(std::stop_token)> task(
       [map = std::move(map), model = model_, options = options_](const std::stop_token& stop) {
+        LowerThreadPriority(kUpkeepNiceness);
         return Adjust(*map, model, options, stop);
       });
   result_ = task.get_future();

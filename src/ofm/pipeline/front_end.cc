@@ -29,13 +29,22 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
       crowded_share_(options.dynamics.crowded_share) {}
 
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
-  PreparedFrame prepared;
-  prepared.frame = std::move(frame);
-  LatticeStep step;
+  return Perceive(Flow(std::move(frame), times), times);
+}
+
+FlowedFrame FrontEnd::Flow(RgbdFrame frame, StageTimes& times) {
+  FlowedFrame flowed{std::move(frame), {}};
   if (mode_ == DynamicsMode::kFull || segmentation_.NeedsFlow()) {
     ScopedStageTimer timer(times, "dense_flow");
-    step = lattice_flow_.Process(prepared.frame);
+    flowed.step = lattice_flow_.Process(flowed.frame);
   }
+  return flowed;
+}
+
+PreparedFrame FrontEnd::Perceive(FlowedFrame flowed, StageTimes& times) {
+  PreparedFrame prepared;
+  prepared.frame = std::move(flowed.frame);
+  const LatticeStep& step = flowed.step;
   {
     ScopedStageTimer timer(times, "segmentation");
     prepared.segmentation = segmentation_.Process(prepared.frame, step);

@@ -19,14 +19,27 @@ struct PreparedFrame {
   std::shared_ptr<const FrameFeatures> features;
 };
 
-/// Optical flow, segmentation, dynamic mask and features, one after the other. Serves one thread.
+/// A frame with the flow that led to it. A value.
+struct FlowedFrame {
+  RgbdFrame frame;
+  LatticeStep step;  ///< empty where nothing needs it
+};
+
+/// Optical flow, segmentation, dynamic mask and features, one after the other. Serves one thread,
+/// or two: one that calls Flow, one that calls Perceive.
 class FrontEnd {
  public:
   FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
            std::unique_ptr<Segmenter> segmenter);
 
-  /// Frames come in increasing order of time. Adds the time of each part to `times`.
+  /// Both of the parts below. Frames come in increasing order of time. Adds the time of each stage
+  /// to `times`.
   PreparedFrame Process(RgbdFrame frame, StageTimes& times);
+
+  /// Dense flow: needs the images alone, and so can be ahead of the rest.
+  FlowedFrame Flow(RgbdFrame frame, StageTimes& times);
+  /// Everything else, in the order of Flow's frames.
+  PreparedFrame Perceive(FlowedFrame flowed, StageTimes& times);
 
   const std::vector<std::string>& class_names() const { return segmentation_.class_names(); }
   SegmentationStatistics segmentation_statistics() const { return segmentation_.statistics(); }
@@ -35,7 +48,7 @@ class FrontEnd {
   PinholeCamera camera_;
   DynamicsMode mode_;
   OpticalFlow point_flow_;    // mode paper
-  LatticeFlow lattice_flow_;  // mode full, and where masks are carried
+  LatticeFlow lattice_flow_;  // mode full, and where masks are carried; Flow's own
   SegmentationStage segmentation_;
   DynamicsStage dynamics_;
   OrbExtractor extractor_, crowded_extractor_;

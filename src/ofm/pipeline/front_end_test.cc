@@ -92,6 +92,18 @@ TEST_F(FrontEndTest, SameFramesGiveTheSameFeatures) {
   }
 }
 
+TEST_F(FrontEndTest, FlowMayBeAheadOfTheRest) {
+  FrontEnd a = MakeFrontEnd(DynamicsMode::kFull), b = MakeFrontEnd(DynamicsMode::kFull);
+  std::vector<FlowedFrame> flowed;
+  for (const RgbdFrame& frame : recording_.images) flowed.push_back(a.Flow(frame, times_));
+  for (std::size_t i = 0; i < flowed.size(); ++i) {
+    const PreparedFrame first = a.Perceive(flowed[i], times_);
+    const PreparedFrame second = b.Process(recording_.images[i], times_);
+    EXPECT_EQ(first.features->descriptors, second.features->descriptors);
+    EXPECT_EQ(cv::norm(first.dynamic.mask, second.dynamic.mask, cv::NORM_INF), 0);
+  }
+}
+
 TEST_F(FrontEndTest, KnowsTheSegmentersClasses) {
   EXPECT_THAT(MakeFrontEnd(DynamicsMode::kPaper).class_names(), testing::ElementsAre("person"));
 }

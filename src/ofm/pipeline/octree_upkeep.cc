@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "ofm/base/thread_priority.h"
+#include "ofm/pipeline/thread_urgency.h"
+
 namespace ofm {
 
 OctreeUpkeep::OctreeUpkeep(const DenseOptions& options, UpkeepThread thread)
@@ -25,6 +28,7 @@ void OctreeUpkeep::Integrate(const Job& job) {
 
 /// The thread. After an error Finish begins anew, and throws what is wrong for good.
 void OctreeUpkeep::Run(std::stop_token stop) {
+  LowerThreadPriority(kUpkeepNiceness);
   try {
     while (const std::optional<Job> job = jobs_.Pop(stop)) Integrate(*job);
   } catch (const std::exception& error) {

@@ -4,15 +4,18 @@
 
 #include "ofm/base/bounded_queue.h"
 #include "ofm/base/latest.h"
+#include "ofm/base/thread_priority.h"
 #include "ofm/base/time.h"
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/keep_error.h"
 #include "ofm/pipeline/runner.h"
+#include "ofm/pipeline/thread_urgency.h"
 #include "ofm/pipeline/tracking_loop.h"
 
 namespace ofm {
 namespace {
 
+constexpr std::size_t kFlowedFrames = 1;
 constexpr std::size_t kPreparedFrames = 2;
 constexpr std::size_t kKeyframeJobs = 8;
 
@@ -35,36 +38,51 @@ ThreadEnd Guard(Work&& work) {
 
 /// What the threads of a run share.
 struct Exchange {
+  BoundedQueue<FlowedFrame> flowed{kFlowedFrames};
   BoundedQueue<PreparedFrame> prepared{kPreparedFrames};
   BoundedQueue<KeyframeJob> jobs{kKeyframeJobs};
   Latest<std::shared_ptr<const MapSnapshot>> map;  // null once the back end has failed
-  StageTimes front_end_times;                      // read after the thread was joined
+  StageTimes flow_times, perception_times;         // read after the threads were joined
 };
 
 /// Lets the threads end, however the scope is left.
 struct QueueCloser {
   Exchange& exchange;
   ~QueueCloser() {
+    exchange.flowed.Close();
     exchange.prepared.Close();
     exchange.jobs.Close();
   }
 };
 
-ThreadEnd RunFrontEnd(Slam& slam, FrameSource& source, std::stop_token stop, Exchange& exchange) {
+ThreadEnd RunFlow(Slam& slam, FrameSource& source, std::stop_token stop, Exchange& exchange) {
   ThreadEnd end = Guard([&] {
     while (!stop.stop_requested()) {
       std::optional<RgbdFrame> frame = source.Next();
       if (!frame) break;
-      PreparedFrame prepared =
-          slam.front_end().Process(std::move(*frame), exchange.front_end_times);
-      if (!exchange.prepared.Push(std::move(prepared), stop)) break;
+      FlowedFrame flowed = slam.front_end().Flow(std::move(*frame), exchange.flow_times);
+      if (!exchange.flowed.Push(std::move(flowed), stop)) break;
     }
   });
+  exchange.flowed.Close();
+  return end;
+}
+
+ThreadEnd RunPerception(Slam& slam, Exchange& exchange) {
+  ThreadEnd end = Guard([&] {
+    while (std::optional<FlowedFrame> flowed = exchange.flowed.Pop()) {
+      PreparedFrame prepared =
+          slam.front_end().Perceive(std::move(*flowed), exchange.perception_times);
+      if (!exchange.prepared.Push(std::move(prepared))) break;
+    }
+  });
+  exchange.flowed.Close();
   exchange.prepared.Close();
   return end;
 }
 
 ThreadEnd RunBackEnd(BackEnd& back_end, Exchange& exchange) {
+  LowerThreadPriority(kMappingNiceness);
   ThreadEnd end = Guard([&] {
     while (std::optional<KeyframeJob> job = exchange.jobs.Pop()) {
       exchange.map.Set(back_end.Insert(std::move(*job)));
@@ -113,19 +131,20 @@ RunOutcome RunThreaded(Slam& slam, BackEnd& back_end, FrameSource& source,
   TrackingLoop tracking(slam, context);
   Exchange exchange;
   exchange.map.Set(slam.mapper().Snapshot());
-  ThreadEnd front_end_end, back_end_end;
+  ThreadEnd flow_end, perception_end, back_end_end;
   {
-    std::jthread front_end(
-        [&] { front_end_end = RunFrontEnd(slam, source, context.stop, exchange); });
+    std::jthread flow([&] { flow_end = RunFlow(slam, source, context.stop, exchange); });
+    std::jthread perception([&] { perception_end = RunPerception(slam, exchange); });
     std::jthread mapping([&] { back_end_end = RunBackEnd(back_end, exchange); });
     const QueueCloser closer{exchange};
     Track(tracking, exchange);
   }
-  for (const ThreadEnd& end : {front_end_end, back_end_end}) {
+  for (const ThreadEnd& end : {flow_end, perception_end, back_end_end}) {
     if (end.exception) std::rethrow_exception(end.exception);
     if (outcome.error.empty()) outcome.error = end.error;
   }
-  outcome.times.Merge(exchange.front_end_times);
+  outcome.times.Merge(exchange.flow_times);
+  outcome.times.Merge(exchange.perception_times);
   KeepError(outcome.error, [&] { back_end.Finish(outcome); });
   tracking.Finish(back_end, outcome);
   outcome.wall_s = NanosecondsToSeconds(SteadyTimeNs() - wall_start);
