@@ -8,8 +8,9 @@ Culling is off, goes by true masks, or by what a network found: --masks holds a 
 What is counted (`ofm-slam evaluate-map --help`; the room without actors is the real recording that the scenarios
 are composed from, with its true poses):
 - actor voxels left: of the voxels that actors alone ever filled, those occupied in map.ot;
-- surface mapped: of the voxels that the room without actors fills, those occupied in map.ot or next to one that is;
-- accuracy: the median distance of map.ply's points to that surface.
+- surface mapped: of the voxels that the surface of the room without actors fills, those occupied in map.ot or next to
+  one that is;
+- accuracy: the median distance of map.ply's points from that surface, point to plane.
 """
 import argparse
 import json

@@ -27,12 +27,12 @@ constexpr const char* kFooter =
     "voxel is one that only actors' pixels filled; one that the static scene fills too does not\n"
     "count. A static voxel is one that static pixels of three frames filled.\n"
     "With --static, the same recording without actors, it also needs map.ply, and prints:\n"
-    "- the share of the static surface that is mapped: of the voxels that pixels of three frames\n"
-    "  without actors fill (no depth edges, no pixel whose depth noise is over half a voxel),\n"
-    "  those that are occupied in map.ot or touch one that is;\n"
-    "- the median distance of map.ply's points to that surface along the line of sight. The\n"
-    "  surface is where all frames in sight put it in the mean; a point with none within 10 cm\n"
-    "  counts as 10 cm off.\n"
+    "- the share of the static surface that is mapped. The surface is where all frames without\n"
+    "  actors together put it (no depth edges; pixels fused by their precision; three frames at\n"
+    "  least). Of the octree's voxels that hold a piece of it (none whose depth noise is over half\n"
+    "  a voxel), those count that are occupied in map.ot or touch one that is;\n"
+    "- the median distance of map.ply's points from that surface, point to plane; a point with no\n"
+    "  surface within 10 cm counts as 10 cm off.\n"
     "Examples:\n"
     "  ofm-slam evaluate-map out desk_walking\n"
     "  ofm-slam evaluate-map out desk_walking --static tum_fr1_desk --json map.json";
@@ -90,12 +90,12 @@ SurfaceMetrics MeasureSurface(const JudgedMap& map, const MapArguments& argument
   SurfaceMeterOptions options;
   options.resolution_m = map.octree->getResolution();
   const std::vector<LabelledPoint> points = LoadPly(arguments.results / "map.ply");
-  SurfaceMeter meter(map.camera, options, points);
+  SurfaceMeter meter(map.camera, options);
   ForEachFrame(arguments.base, map,
                [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
                  meter.AddFrame(map_from_camera, frame.depth_m);
                });
-  return meter.Evaluate(*map.octree);
+  return meter.Evaluate(*map.octree, points);
 }
 
 void Print(const MapMetrics& metrics) {

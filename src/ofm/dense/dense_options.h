@@ -41,6 +41,7 @@ struct OccupancyOptions {
   double probability_miss = .4;    ///< of a voxel that a ray crosses
   double probability_min = .1192;  ///< lower clamp
   double probability_max = .971;   ///< upper clamp
+  bool spare_neighbours = true;    ///< of a scan's hits: its rays do not free them
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -50,6 +51,8 @@ struct OccupancyOptions {
           Range{.001, .499});
     visit("probability_min", self.probability_min, "lowest occupancy", Range{.0001, .499});
     visit("probability_max", self.probability_max, "highest occupancy", Range{.501, .9999});
+    visit("spare_neighbours", self.spare_neighbours,
+          "rays do not free the neighbours of voxels that their own scan hits; OctoMap's do");
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "ofm/base/check.h"
 #include "ofm/dense/octree_integrator.h"
+#include "ofm/dense/surface_thinning.h"
 #include "ofm/dense/voxel_filter.h"
 
 namespace ofm {
@@ -47,12 +48,14 @@ SemanticMap SemanticMapper::Complete(SemanticOctree octree,
       spdlog::warn("semantic map: key frame {} is left out, its pose is not usable", id.value);
       continue;
     }
-    for (LabelledPoint point : TransformToWorld(*cloud, pose->second).points) {
+    const WorldScan scan = TransformToWorld(*cloud, pose->second);
+    for (LabelledPoint point : scan.points) {
       point.instance = FindObject(objects, id, point.instance);
-      filter.Add(point);
+      filter.Add(point, scan.origin);
     }
   }
-  map.cloud_in_world = filter.Points();
+  map.cloud_in_world = getenv("NOTHIN") ? filter.Points()
+                                        : ThinSurfaces(filter.Voxels(), options_.CloudResolution());
   map.navigation_grid =
       MakeNavigationGrid(map.octree, MeanUp(world_from_camera), options_.navigation);
   std::erase_if(map.cloud_in_world,

@@ -124,11 +124,24 @@ void SemanticOctree::InsertMisses(const Eigen::Vector3f& origin, const Eigen::Ve
   });
 }
 
+/// Keeps this scan's rays from freeing what is beside its hits: errors of depth and pose put one
+/// surface into neighbouring voxels, and a ray that grazes it must not take it away.
+void SemanticOctree::SpareNeighbours(const std::vector<VoxelIndex>& hit_voxels) {
+  for (const VoxelIndex& hit : hit_voxels) {
+    for (int i = 0; i < 27; ++i) {
+      const VoxelIndex voxel = hit + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+      Mark(TouchBlock(BlockOf(voxel)).updated, CellOf(voxel));
+    }
+  }
+}
+
 template <SemanticOctree::Pass kPass>
 bool SemanticOctree::Insert(const WorldScan& scan) {
   if (!FindVoxel(scan.origin, 1 / resolution_m_)) return false;
   ++scan_;
-  for (const VoxelIndex& voxel : InsertHits<kPass>(scan.points)) {
+  const std::vector<VoxelIndex> hit_voxels = InsertHits<kPass>(scan.points);
+  if (options_.spare_neighbours) SpareNeighbours(hit_voxels);
+  for (const VoxelIndex& voxel : hit_voxels) {
     InsertMisses<kPass>(scan.origin, VoxelCenter(voxel, resolution_m_));
   }
   for (const Eigen::Vector3f& end : scan.free_ends) {

@@ -37,7 +37,8 @@ struct WorldScan {
 
 /// The map of voxels that becomes an OctoMap file (octree_file.h). In memory it is no tree but a
 /// hash table of blocks of 8 x 8 x 8 voxels, which the rays cross several times faster; the
-/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives. Labels are
+/// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives, unless
+/// neighbours are spared (OccupancyOptions). Labels are
 /// fused by Bayes' rule (LabelBelief).
 class SemanticOctree {
  public:
@@ -45,9 +46,10 @@ class SemanticOctree {
   SemanticOctree(double resolution_m, const OccupancyOptions& options, double label_share = 1);
 
   /// Fuses a scan. Each voxel is updated once: as hit where a point is in it, else as missed where
-  /// a ray crosses it. There is one ray per voxel with points, to its centre. A voxel that has
-  /// become as free as can be forgets colour and label. Returns false, and changes nothing, where
-  /// the origin is not finite or beyond the grid's limits; such points are left out.
+  /// a ray crosses it and, where the options spare them, none of the 26 around was hit. There is
+  /// one ray per voxel with points, to its centre. A voxel that has become as free as can be
+  /// forgets colour and label. Returns false, and changes nothing, where the origin is not finite
+  /// or beyond the grid's limits; such points are left out.
   bool InsertScan(const WorldScan& scan);
 
   /// The blocks of voxels that the last scan hit or crossed, by number; each once.
@@ -111,6 +113,7 @@ class SemanticOctree {
   std::vector<VoxelIndex> InsertHits(std::span<const LabelledPoint> points);
   template <Pass kPass>
   void InsertMisses(const Eigen::Vector3f& origin, const Eigen::Vector3f& end);
+  void SpareNeighbours(const std::vector<VoxelIndex>& hit_voxels);
   void Update(Block& block, int cell, float change) const;
 
   double resolution_m_;

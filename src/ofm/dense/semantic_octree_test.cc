@@ -18,6 +18,13 @@ const Eigen::Vector3f kOrigin(.05f, .05f, .05f);
 /// In the voxel (10, 0, 0), ten voxels from the origin's.
 const Eigen::Vector3f kEnd(1.05f, .05f, .05f);
 
+/// Rays free whatever they cross.
+OccupancyOptions AsOctoMap() {
+  OccupancyOptions options;
+  options.spare_neighbours = false;
+  return options;
+}
+
 float LogOdds(double probability) {
   return static_cast<float>(std::log(probability / (1 - probability)));
 }
@@ -41,7 +48,7 @@ WorldScan RandomScan(std::uint64_t seed) {
 }
 
 TEST(SemanticOctree, ARayFillsItsEndAndFreesWhatIsBefore) {
-  SemanticOctree octree(kResolution_m, {});
+  SemanticOctree octree(kResolution_m, AsOctoMap());
   ASSERT_TRUE(octree.InsertScan(ScanTo(kEnd)));
   EXPECT_FLOAT_EQ(octree.Find(kEnd)->log_odds, LogOdds(.7));
   for (int x = 0; x < 10; ++x) {
@@ -49,6 +56,25 @@ TEST(SemanticOctree, ARayFillsItsEndAndFreesWhatIsBefore) {
   }
   EXPECT_FALSE(octree.Find(VoxelIndex(11, 0, 0)));
   EXPECT_FALSE(octree.Find(VoxelIndex(5, 1, 0)));
+}
+
+TEST(SemanticOctree, ARayThatGrazesASurfaceOfItsScanDoesNotFreeIt) {
+  // A floor that another scan put one voxel higher.
+  WorldScan floor{{.05f, .05f, .35f}, {}, {}};
+  WorldScan higher = floor;
+  for (int x = 2; x <= 20; ++x) {
+    floor.points.push_back({{.1f * static_cast<float>(x) + .05f, .05f, .05f}, {}, kNoLabel, 0});
+    higher.points.push_back({{.1f * static_cast<float>(x) + .05f, .05f, .15f}, {}, kNoLabel, 0});
+  }
+  const auto count_left = [&](const OccupancyOptions& options) {
+    SemanticOctree octree(kResolution_m, options);
+    octree.InsertScan(higher);
+    for (int i = 0; i < 5; ++i) octree.InsertScan(floor);
+    return std::count_if(higher.points.begin(), higher.points.end(),
+                         [&](const auto& point) { return octree.IsOccupied(point.position); });
+  };
+  EXPECT_EQ(count_left({}), 19);
+  EXPECT_LT(count_left(AsOctoMap()), 10);
 }
 
 TEST(SemanticOctree, LogOddsAreClamped) {
@@ -69,7 +95,7 @@ TEST(SemanticOctree, AVoxelIsUpdatedOncePerScanAndHitsWin) {
 }
 
 TEST(SemanticOctree, OccupancyIsThatOfOctoMap) {
-  SemanticOctree octree(kResolution_m, {});
+  SemanticOctree octree(kResolution_m, AsOctoMap());
   octomap::OcTree reference(kResolution_m);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const WorldScan scan = RandomScan(seed);
@@ -214,7 +240,7 @@ TEST(SemanticOctree, OnlyTheBlocksNamedAreRebuilt) {
 }
 
 TEST(SemanticOctree, FindingBlocksChangesNothing) {
-  SemanticOctree octree(kResolution_m, {});
+  SemanticOctree octree(kResolution_m, AsOctoMap());
   const std::vector<std::uint32_t> blocks = octree.FindBlocks(ScanTo(kEnd));
   EXPECT_EQ(blocks.size(), 2u);  // of 0.8 m
   EXPECT_TRUE(octree.empty());

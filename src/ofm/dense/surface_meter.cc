@@ -1,5 +1,6 @@
 #include "ofm/dense/surface_meter.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 #include "ofm/base/check.h"
 #include "ofm/camera/depth_noise.h"
 #include "ofm/dense/octree_file.h"
+#include "ofm/dense/surface_thinning.h"
 #include "ofm/dense/usable_pixels.h"
 
 namespace ofm {
@@ -23,99 +25,155 @@ bool IsMapped(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
   return false;
 }
 
+/// Pixels are finer than the voxels that they are gathered in.
+constexpr int kPixelStep = 2;
+
+/// Finds distances from a surface given by points.
+class SurfacePoints {
+ public:
+  SurfacePoints(std::span<const LabelledPoint> points, double spacing_m)
+      : points_(points), spacing_m_(spacing_m) {
+    for (const LabelledPoint& point : points) {
+      const auto voxel = FindVoxel(point.position, 1 / spacing_m);
+      if (voxel && numbers_.Insert(*voxel) == owners_.size()) owners_.push_back(&point);
+    }
+  }
+
+  /// reach_m where there is nothing nearer.
+  double DistanceFrom(const Eigen::Vector3f& position, double reach_m) const {
+    const auto voxel = FindVoxel(position, 1 / spacing_m_);
+    if (!voxel) return reach_m;
+    const LabelledPoint* nearest = nullptr;
+    double least_m = reach_m;
+    for (int ring = 0; (ring - 1) * spacing_m_ < least_m; ++ring) {
+      ForRing(*voxel, ring, [&](const LabelledPoint& point) {
+        const double distance_m = (point.position - position).norm();
+        if (distance_m >= least_m) return;
+        least_m = distance_m;
+        nearest = &point;
+      });
+    }
+    return nearest == nullptr ? reach_m : std::min(least_m, DistanceFromPlane(position, *nearest));
+  }
+
+ private:
+  /// Visits the points of the voxels that are `ring` voxels away.
+  template <class Visit>
+  void ForRing(const VoxelIndex& centre, int ring, Visit&& visit) const {
+    for (int dx = -ring; dx <= ring; ++dx) {
+      for (int dy = -ring; dy <= ring; ++dy) {
+        const bool side = std::max(std::abs(dx), std::abs(dy)) == ring;
+        for (int dz = -ring; dz <= ring; dz += side || ring == 0 ? 1 : 2 * ring) {
+          const auto number = numbers_.Find(centre + VoxelIndex(dx, dy, dz));
+          if (number) visit(*owners_[*number]);
+        }
+      }
+    }
+  }
+
+  double DistanceFromPlane(const Eigen::Vector3f& position, const LabelledPoint& nearest) const {
+    constexpr int kRings = 2, kMinPoints = 4;
+    std::vector<Eigen::Vector3d> around;
+    const VoxelIndex centre = *FindVoxel(nearest.position, 1 / spacing_m_);
+    for (int ring = 0; ring <= kRings; ++ring) {
+      ForRing(centre, ring,
+              [&](const LabelledPoint& point) { around.push_back(point.position.cast<double>()); });
+    }
+    if (around.size() < kMinPoints) return std::numeric_limits<double>::infinity();
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& point : around) mean += point / static_cast<double>(around.size());
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& point : around) {
+      scatter += (point - mean) * (point - mean).transpose();
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(scatter);
+    return std::abs(solver.eigenvectors().col(0).dot(position.cast<double>() - mean));
+  }
+
+  std::span<const LabelledPoint> points_;
+  double spacing_m_;
+  VoxelTable numbers_;
+  std::vector<const LabelledPoint*> owners_;  // by number
+};
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
-SurfaceMeter::SurfaceMeter(const PinholeCamera& camera, const SurfaceMeterOptions& options,
-                           std::span<const LabelledPoint> points_in_map)
-    : camera_(camera), table_(camera), options_(options) {
+SurfaceMeter::SurfaceMeter(const PinholeCamera& camera, const SurfaceMeterOptions& options)
+    : camera_(camera), table_(camera), options_(options), pixels_(options.resolution_m / 2) {
   OFM_CHECK(options.resolution_m > 0 && options.range_m > 0 && options.reach_m > 0);
-  for (const LabelledPoint& point : points_in_map) points_.push_back({point.position});
 }
 
 void SurfaceMeter::AddFrame(const RigidTransform& map_from_camera, const cv::Mat& depth_m) {
   OFM_CHECK(depth_m.type() == CV_32FC1);
   OFM_CHECK(depth_m.cols == camera_.width && depth_m.rows == camera_.height);
   const cv::Mat usable = FindSmoothPixels(depth_m, {});
+  const Eigen::Vector3f viewpoint = map_from_camera.translation().cast<float>();
   ++frame_;
-  AddVoxels(map_from_camera, depth_m, usable);
-  AddOffsets(map_from_camera, depth_m, usable);
-}
-
-void SurfaceMeter::AddVoxels(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
-                             const cv::Mat& usable) {
-  for (int row = 0; row < depth_m.rows; ++row) {
-    for (int column = 0; column < depth_m.cols; ++column) {
+  for (int row = 0; row < depth_m.rows; row += kPixelStep) {
+    for (int column = 0; column < depth_m.cols; column += kPixelStep) {
       const double depth = depth_m.at<float>(row, column);
       if (usable.at<std::uint8_t>(row, column) == 0) continue;
-      if (DepthSigma(depth) > options_.resolution_m / 2) continue;
       const Eigen::Vector3d point =
           camera_.UnprojectIdeal(table_.At(column, row).cast<double>(), depth);
       if (point.norm() > options_.range_m) continue;
-      const std::optional<VoxelIndex> index =
-          FindVoxel((map_from_camera * point).cast<float>(), 1 / options_.resolution_m);
+      LabelledPoint pixel;
+      pixel.position = (map_from_camera * point).cast<float>();
+      const auto index = FindVoxel(pixel.position, 1 / options_.resolution_m);
       if (!index) continue;
       const std::uint32_t number = voxel_numbers_.Insert(*index);
       if (number == voxels_.size()) voxels_.emplace_back();
       Voxel& voxel = voxels_[number];
       if (voxel.last_frame != frame_) ++voxel.frames;
       voxel.last_frame = frame_;
+      pixel.precision = static_cast<float>(1 / (DepthSigma(depth) * DepthSigma(depth)));
+      pixels_.Add(pixel, viewpoint);
     }
   }
 }
 
-void SurfaceMeter::AddOffsets(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
-                              const cv::Mat& usable) {
-  const RigidTransform camera_from_map = map_from_camera.Inverse();
-  const Eigen::Matrix3f rotation = camera_from_map.RotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = camera_from_map.translation().cast<float>();
-  for (Point& point : points_) {
-    const Eigen::Vector3f in_camera = rotation * point.position_in_map + translation;
-    if (in_camera.z() <= 0 || in_camera.norm() > options_.range_m) continue;
-    const Eigen::Vector2d ideal_px = camera_.ProjectIdeal(in_camera.cast<double>());
-    // Far outside the image the distortion would fold back into it.
-    const Eigen::Vector2d offset_px(ideal_px.x() - camera_.cx, ideal_px.y() - camera_.cy);
-    if (offset_px.norm() > camera_.width) continue;
-    const Eigen::Vector2d pixel = camera_.Distort(ideal_px);
-    const double u = std::round(pixel.x()), v = std::round(pixel.y());
-    if (!(u >= 0 && v >= 0 && u < camera_.width && v < camera_.height)) continue;
-    const int row = static_cast<int>(v), column = static_cast<int>(u);
-    if (usable.at<std::uint8_t>(row, column) == 0) continue;
-    point.seen = true;
-    const double measured_m = depth_m.at<float>(row, column);
-    const double scale = in_camera.norm() / in_camera.z();  // of a length along the line of sight
-    const double offset_m = scale * (measured_m - in_camera.z());
-    if (std::abs(offset_m) > options_.reach_m) continue;
-    const double sigma_m = DepthSigma(measured_m);
-    point.weight += 1 / (sigma_m * sigma_m);
-    point.weighted_offset += offset_m / (sigma_m * sigma_m);
-  }
+std::vector<LabelledPoint> SurfaceMeter::FindSurface() const {
+  std::vector<LabelledPoint> surface = ThinSurfaces(pixels_.Voxels(), options_.resolution_m / 2);
+  std::erase_if(surface, [&](const LabelledPoint& point) {
+    const auto voxel = FindVoxel(point.position, 1 / options_.resolution_m);
+    const auto number = voxel ? voxel_numbers_.Find(*voxel) : std::nullopt;
+    return !number || voxels_[*number].frames < options_.min_frames;
+  });
+  return surface;
 }
 
-SurfaceMetrics SurfaceMeter::Evaluate(const octomap::ColorOcTree& octree) const {
+SurfaceMetrics SurfaceMeter::Evaluate(const octomap::ColorOcTree& octree,
+                                      std::span<const LabelledPoint> points_in_map) const {
   OFM_CHECK(std::abs(octree.getResolution() - options_.resolution_m) < 1e-9);
+  const std::vector<LabelledPoint> surface = FindSurface();
   SurfaceMetrics metrics;
-  for (std::uint32_t number = 0; number < voxels_.size(); ++number) {
-    if (voxels_[number].frames < options_.min_frames) continue;
+  VoxelTable counted;
+  for (const LabelledPoint& point : surface) {
+    if (1 / std::sqrt(point.precision) > options_.resolution_m / 2) continue;
+    const auto voxel = FindVoxel(point.position, 1 / options_.resolution_m);
+    if (counted.Insert(*voxel) < metrics.surface_voxels) continue;
     ++metrics.surface_voxels;
-    metrics.mapped += IsMapped(octree, voxel_numbers_.At(number));
+    metrics.mapped += IsMapped(octree, *voxel);
   }
   if (metrics.surface_voxels > 0) {
     metrics.mapped_share =
         static_cast<double>(metrics.mapped) / static_cast<double>(metrics.surface_voxels);
   }
+  const SurfacePoints nearest(surface, options_.resolution_m / 2);
   std::vector<double> distances_m;
-  for (const Point& point : points_) {
-    if (!point.seen) continue;
-    const bool off = point.weight == 0;
-    metrics.points_off += off;
-    distances_m.push_back(off ? options_.reach_m : std::abs(point.weighted_offset / point.weight));
+  for (const LabelledPoint& point : points_in_map) {
+    distances_m.push_back(nearest.DistanceFrom(point.position, options_.reach_m));
+    metrics.points_off += distances_m.back() >= options_.reach_m;
   }
   metrics.points = distances_m.size();
-  if (!distances_m.empty()) {
-    const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-    std::nth_element(distances_m.begin(), middle, distances_m.end());
-    metrics.median_distance_m = *middle;
-  }
+  metrics.median_distance_m = Median(std::move(distances_m));
   return metrics;
 }
 

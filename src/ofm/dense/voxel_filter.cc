@@ -8,13 +8,15 @@ void InstanceVotes::Add(std::uint16_t instance) {
 }
 
 template <class Labels, class Weight>
-void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point) {
+void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point,
+                                           const Eigen::Vector3f& viewpoint) {
   const std::optional<VoxelIndex> voxel = FindVoxel(point.position, voxels_per_metre_);
   if (!voxel) return;
   const std::uint32_t number = table_.Insert(*voxel);
   if (number == sums_.size()) sums_.emplace_back();
   Sum& sum = sums_[number];
   sum.position += static_cast<double>(point.precision) * point.position.template cast<double>();
+  sum.viewpoint += static_cast<double>(point.precision) * viewpoint.template cast<double>();
   sum.color += Eigen::Vector3i(point.color.r, point.color.g, point.color.b);
   sum.precision += point.precision;
   ++sum.count;
@@ -23,21 +25,35 @@ void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point) {
 }
 
 template <class Labels, class Weight>
+LabelledPoint BasicVoxelFilter<Labels, Weight>::Sum::Point() const {
+  const auto mean = [&](int channel) {
+    return static_cast<std::uint8_t>((color[channel] + count / 2) / count);
+  };
+  return {(position / precision).template cast<float>(),
+          {mean(0), mean(1), mean(2)},
+          labels.Best(),
+          labels.Confidence(),
+          static_cast<float>(precision / count),
+          labels.Best() == kNoLabel ? kNoInstance : instances.Best()};
+}
+
+template <class Labels, class Weight>
 std::vector<LabelledPoint> BasicVoxelFilter<Labels, Weight>::Points() const {
   std::vector<LabelledPoint> points;
   points.reserve(sums_.size());
-  for (const Sum& sum : sums_) {
-    const auto mean = [&](int channel) {
-      return static_cast<std::uint8_t>((sum.color[channel] + sum.count / 2) / sum.count);
-    };
-    points.push_back({(sum.position / sum.precision).template cast<float>(),
-                      {mean(0), mean(1), mean(2)},
-                      sum.labels.Best(),
-                      sum.labels.Confidence(),
-                      static_cast<float>(sum.precision / sum.count),
-                      sum.labels.Best() == kNoLabel ? kNoInstance : sum.instances.Best()});
-  }
+  for (const Sum& sum : sums_) points.push_back(sum.Point());
   return points;
+}
+
+template <class Labels, class Weight>
+std::vector<FusedVoxel> BasicVoxelFilter<Labels, Weight>::Voxels() const {
+  std::vector<FusedVoxel> voxels;
+  voxels.reserve(sums_.size());
+  for (const Sum& sum : sums_) {
+    voxels.push_back(
+        {sum.Point(), sum.precision, (sum.viewpoint / sum.precision).template cast<float>()});
+  }
+  return voxels;
 }
 
 template class BasicVoxelFilter<LabelVotes, PointConfidence>;

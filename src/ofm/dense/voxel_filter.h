@@ -28,6 +28,13 @@ class InstanceVotes {
   int lead_ = 0;
 };
 
+/// What the points of a voxel came to.
+struct FusedVoxel {
+  LabelledPoint point;                                  ///< as Points() has it
+  double precision = 0;                                 ///< sum over the points [1/m^2]
+  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< mean, weighted alike [m]
+};
+
 /// Gathers points in voxels and gives one point per voxel: the mean of their positions weighted by
 /// their precision, mean colour and precision, one label, and where it has one the instance of most
 /// points.
@@ -37,20 +44,26 @@ class BasicVoxelFilter {
   explicit BasicVoxelFilter(double resolution_m)
       : voxels_per_metre_(1 / resolution_m), weight_(resolution_m) {}
 
-  /// Points that are not finite or beyond the grid's limits are left out.
-  void Add(const LabelledPoint& point);
+  /// Points that are not finite or beyond the grid's limits are left out. `viewpoint` is where the
+  /// point was seen from.
+  void Add(const LabelledPoint& point, const Eigen::Vector3f& viewpoint = Eigen::Vector3f::Zero());
 
   /// One point per voxel, in the order in which the voxels were first met.
   std::vector<LabelledPoint> Points() const;
+  /// The same with more of what is known.
+  std::vector<FusedVoxel> Voxels() const;
 
  private:
   struct Sum {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
     Eigen::Vector3i color = Eigen::Vector3i::Zero();
     double precision = 0;
     int count = 0;
     Labels labels;
     InstanceVotes instances;
+
+    LabelledPoint Point() const;
   };
 
   double voxels_per_metre_;

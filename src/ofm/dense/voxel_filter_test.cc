@@ -29,6 +29,17 @@ TEST(VoxelFilter, PreciseDepthCountsMore) {
   EXPECT_FLOAT_EQ(points[0].precision, 2e4f);
 }
 
+TEST(VoxelFilter, VoxelsKnowWhereTheyWereSeenFromAndHowSurelyAllInAll) {
+  ViewVoxelFilter filter(.1);
+  filter.Add({{.01f, 0, .02f}, {}, 5, 200, 3e4f}, {4, 0, 0});
+  filter.Add({{.05f, 0, .06f}, {}, 5, 200, 1e4f}, {0, 0, 8});
+  const auto voxels = filter.Voxels();
+  ASSERT_EQ(voxels.size(), 1u);
+  EXPECT_TRUE(voxels[0].viewpoint.isApprox(Eigen::Vector3f(3, 0, 2)));
+  EXPECT_DOUBLE_EQ(voxels[0].precision, 4e4);
+  EXPECT_EQ(voxels[0].point.position, filter.Points()[0].position);
+}
+
 TEST(VoxelFilter, TheLabelOfOneViewIsVotedAndOfManyViewsBelieved) {
   VoxelFilter one_view(.1);
   ViewVoxelFilter views(.1);
