@@ -54,8 +54,7 @@ SemanticMap SemanticMapper::Complete(SemanticOctree octree,
       filter.Add(point, scan.origin);
     }
   }
-  map.cloud_in_world = getenv("NOTHIN") ? filter.Points()
-                                        : ThinSurfaces(filter.Voxels(), options_.CloudResolution());
+  map.cloud_in_world = ThinSurfaces(filter.Voxels(), options_.CloudResolution());
   map.navigation_grid =
       MakeNavigationGrid(map.octree, MeanUp(world_from_camera), options_.navigation);
   std::erase_if(map.cloud_in_world,

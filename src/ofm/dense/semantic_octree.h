@@ -38,8 +38,7 @@ struct WorldScan {
 /// The map of voxels that becomes an OctoMap file (octree_file.h). In memory it is no tree but a
 /// hash table of blocks of 8 x 8 x 8 voxels, which the rays cross several times faster; the
 /// occupancies are those that octomap::OcTree::insertPointCloud with `discretize` gives, unless
-/// neighbours are spared (OccupancyOptions). Labels are
-/// fused by Bayes' rule (LabelBelief).
+/// neighbours are spared (OccupancyOptions). Labels are fused by Bayes' rule (LabelBelief).
 class SemanticOctree {
  public:
   /// Each labelled point counts as `label_share` of an observation (PointEvidence).

@@ -10,6 +10,7 @@
 #include "ofm/dense/octree_file.h"
 #include "ofm/dense/surface_thinning.h"
 #include "ofm/dense/usable_pixels.h"
+#include "ofm/dense/voxel_lookup.h"
 
 namespace ofm {
 namespace {
@@ -32,16 +33,13 @@ constexpr int kPixelStep = 2;
 class SurfacePoints {
  public:
   SurfacePoints(std::span<const LabelledPoint> points, double spacing_m)
-      : points_(points), spacing_m_(spacing_m) {
-    for (const LabelledPoint& point : points) {
-      const auto voxel = FindVoxel(point.position, 1 / spacing_m);
-      if (voxel && numbers_.Insert(*voxel) == owners_.size()) owners_.push_back(&point);
-    }
+      : points_(points), spacing_m_(spacing_m), lookup_(spacing_m) {
+    for (const LabelledPoint& point : points) lookup_.Add(point.position);
   }
 
   /// reach_m where there is nothing nearer.
   double DistanceFrom(const Eigen::Vector3f& position, double reach_m) const {
-    const auto voxel = FindVoxel(position, 1 / spacing_m_);
+    const auto voxel = lookup_.VoxelOf(position);
     if (!voxel) return reach_m;
     const LabelledPoint* nearest = nullptr;
     double least_m = reach_m;
@@ -64,8 +62,8 @@ class SurfacePoints {
       for (int dy = -ring; dy <= ring; ++dy) {
         const bool side = std::max(std::abs(dx), std::abs(dy)) == ring;
         for (int dz = -ring; dz <= ring; dz += side || ring == 0 ? 1 : 2 * ring) {
-          const auto number = numbers_.Find(centre + VoxelIndex(dx, dy, dz));
-          if (number) visit(*owners_[*number]);
+          const auto found = lookup_.Find(VoxelIndex(centre + VoxelIndex(dx, dy, dz)));
+          if (found) visit(points_[*found]);
         }
       }
     }
@@ -74,7 +72,7 @@ class SurfacePoints {
   double DistanceFromPlane(const Eigen::Vector3f& position, const LabelledPoint& nearest) const {
     constexpr int kRings = 2, kMinPoints = 4;
     std::vector<Eigen::Vector3d> around;
-    const VoxelIndex centre = *FindVoxel(nearest.position, 1 / spacing_m_);
+    const VoxelIndex centre = *lookup_.VoxelOf(nearest.position);
     for (int ring = 0; ring <= kRings; ++ring) {
       ForRing(centre, ring,
               [&](const LabelledPoint& point) { around.push_back(point.position.cast<double>()); });
@@ -93,8 +91,7 @@ class SurfacePoints {
 
   std::span<const LabelledPoint> points_;
   double spacing_m_;
-  VoxelTable numbers_;
-  std::vector<const LabelledPoint*> owners_;  // by number
+  VoxelLookup lookup_;
 };
 
 double Median(std::vector<double> values) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ofm/dense/voxel_table.h"
+#include "ofm/dense/voxel_lookup.h"
 
 namespace ofm {
 namespace {
@@ -20,20 +20,9 @@ constexpr int kShifts = 3;
 class VoxelField {
  public:
   VoxelField(std::span<const FusedVoxel> voxels, double resolution_m)
-      : voxels_(voxels), resolution_m_(resolution_m) {
-    for (const FusedVoxel& voxel : voxels) {
-      // Rounding can put a mean into the next voxel, which then has it twice: the first counts.
-      const auto index = FindVoxel(voxel.point.position, 1 / resolution_m_);
-      if (index && numbers_.Insert(*index) == owner_.size()) {
-        owner_.push_back(static_cast<std::uint32_t>(&voxel - voxels.data()));
-      }
-    }
-  }
-
-  const FusedVoxel* Find(const Eigen::Vector3f& position) const {
-    const auto index = FindVoxel(position, 1 / resolution_m_);
-    const auto number = index ? numbers_.Find(*index) : std::nullopt;
-    return number ? &voxels_[owner_[*number]] : nullptr;
+      : voxels_(voxels), resolution_m_(resolution_m), lookup_(resolution_m) {
+    // Rounding can put a mean into the next voxel, which then has two: the first counts.
+    for (const FusedVoxel& voxel : voxels) lookup_.Add(voxel.point.position);
   }
 
   /// Where on the line of sight through `voxel` most was measured.
@@ -55,18 +44,19 @@ class VoxelField {
                     double kernel_m) const {
     const int steps = static_cast<int>(std::ceil(kReachKernels * kernel_m / resolution_m_));
     double weights = 0, offsets = 0;
-    const FusedVoxel* last = nullptr;
+    std::optional<std::size_t> last;
     for (int step = -steps; step <= steps; ++step) {
-      const FusedVoxel* voxel =
-          Find(position + direction * static_cast<float>(step * resolution_m_));
-      if (voxel == nullptr || voxel == last) continue;
-      last = voxel;
-      const Eigen::Vector3f way = voxel->point.position - position;
+      const Eigen::Vector3f place = position + direction * static_cast<float>(step * resolution_m_);
+      const auto found = lookup_.Find(place);
+      if (!found || found == last) continue;
+      last = found;
+      const FusedVoxel& voxel = voxels_[*found];
+      const Eigen::Vector3f way = voxel.point.position - position;
       const double offset_m = direction.dot(way);
       const double beside_m = (way - direction * static_cast<float>(offset_m)).norm();
       const double along = offset_m / kernel_m;
       const double beside = beside_m / (kBesideVoxels * resolution_m_);
-      const double weight = voxel->precision * std::exp(-.5 * (along * along + beside * beside));
+      const double weight = voxel.precision * std::exp(-.5 * (along * along + beside * beside));
       weights += weight;
       offsets += weight * offset_m;
     }
@@ -75,8 +65,7 @@ class VoxelField {
 
   std::span<const FusedVoxel> voxels_;
   double resolution_m_;
-  VoxelTable numbers_;
-  std::vector<std::uint32_t> owner_;  // by number
+  VoxelLookup lookup_;
 };
 
 /// What comes into one voxel.
