@@ -55,7 +55,7 @@ void ForEachFrame(const std::filesystem::path& folder, const JudgedMap& map, Vis
   const RgbdSequence sequence(folder, map.camera);
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     const RgbdFrame frame = sequence.Load(i);
-    const auto pose = InterpolatePose(map.truth, frame.stamp_ns);
+    const auto pose = InterpolatePose(map.truth, frame.depth_stamp_ns);
     if (pose) visit(map.map_from_truth * *pose, frame);
   }
 }

@@ -13,6 +13,7 @@ namespace ofm {
 struct KeyframeCloudOptions {
   double edge_sigmas = 8;             ///< depth step that is an edge [depth sigmas]
   int min_measured_pixels = 6;        ///< of the 3 x 3 around a pixel, itself included
+  int view_stride = 1;                ///< frames from one view of a cloud to the next; 0 = none
   int mask_dilation_px = 4;           ///< dropped around what moves, whatever its depth
   int mask_margin_px = 16;            ///< dropped around what moves where the depth is alike
   double mask_margin_depth_m = 0.2;   ///< how alike
@@ -24,6 +25,10 @@ struct KeyframeCloudOptions {
           Range{1, 1000});
     visit("min_measured_pixels", self.min_measured_pixels,
           "pixels with depth that a mapped pixel's 3 x 3 must hold", Range{1, 9});
+    visit("view_stride", self.view_stride,
+          "between key frames every so many frames add what they see to the next one's cloud; 0 = "
+          "none do",
+          Range{0, 1000});
     visit("mask_dilation_px", self.mask_dilation_px,
           "pixels dropped around what moves, whatever their depth", Range{0, 100});
     visit("mask_margin_px", self.mask_margin_px,

@@ -10,19 +10,35 @@
 namespace ofm {
 namespace {
 
-void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera) {
+void CheckImage(const cv::Mat& image, int type, cv::Size size) {
   OFM_CHECK(image.type() == type);
-  OFM_CHECK(image.cols == camera.width && image.rows == camera.height);
+  OFM_CHECK(image.size() == size);
 }
 
-void CheckFrame(const LabelledFrame& frame, const PinholeCamera& camera) {
-  CheckImage(frame.color, CV_8UC3, camera);
-  CheckImage(frame.depth_m, CV_32FC1, camera);
+void CheckImages(const LabelledFrame& frame, cv::Size size) {
+  CheckImage(frame.color, CV_8UC3, size);
+  CheckImage(frame.depth_m, CV_32FC1, size);
   OFM_CHECK(frame.class_ids.empty() == frame.confidence.empty());
   for (const cv::Mat* image : {&frame.class_ids, &frame.confidence, &frame.dynamic_mask}) {
-    if (!image->empty()) CheckImage(*image, CV_8UC1, camera);
+    if (!image->empty()) CheckImage(*image, CV_8UC1, size);
   }
-  if (!frame.instances.empty()) CheckImage(frame.instances, CV_16UC1, camera);
+  if (!frame.instances.empty()) CheckImage(frame.instances, CV_16UC1, size);
+}
+
+/// Pixels of the camera from one of the frame's to the next.
+int FindPixelStep(const LabelledFrame& frame, const PinholeCamera& camera) {
+  OFM_CHECK(!frame.depth_m.empty());
+  const int step = camera.width / frame.depth_m.cols;
+  OFM_CHECK(step > 0);
+  CheckImages(frame, {camera.width / step, camera.height / step});
+  return step;
+}
+
+/// For images of every `step`-th pixel.
+KeyframeCloudOptions Coarsened(KeyframeCloudOptions options, int step) {
+  options.mask_dilation_px = (options.mask_dilation_px + step - 1) / step;
+  options.mask_margin_px = (options.mask_margin_px + step - 1) / step;
+  return options;
 }
 
 template <class T>
@@ -38,10 +54,10 @@ struct RowReader {
   const std::uint16_t* instances;  // null without instances
   std::uint8_t unlabelled_confidence;
 
-  LabelledPoint At(int column, const Eigen::Vector3f& position) const {
+  LabelledPoint At(int column, const Eigen::Vector3f& position, double depth_m) const {
     const cv::Vec3b& bgr = color[column];
     LabelledPoint point{position, {bgr[2], bgr[1], bgr[0]}, kNoLabel, unlabelled_confidence};
-    const double sigma_m = DepthSigma(position.z());
+    const double sigma_m = DepthSigma(depth_m);
     point.precision = static_cast<float>(1 / (sigma_m * sigma_m));
     if (class_ids != nullptr && class_ids[column] != kNoLabel) {
       point.class_id = class_ids[column];
@@ -76,35 +92,54 @@ KeyframeCloudMaker::KeyframeCloudMaker(const PinholeCamera& camera, const DenseO
   }
 }
 
-KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& frame) const {
-  CheckFrame(frame, camera_);
-  const cv::Mat usable = FindUsablePixels(frame, options_.cloud);
+/// Points in the key frame's camera.
+struct KeyframeCloudMaker::Gathered {
+  explicit Gathered(const DenseOptions& options)
+      : near(options.CloudResolution()), far(options.resolution_m) {}
+
+  VoxelFilter near, far;  // within the range, and the ends of rays that go beyond
+};
+
+void KeyframeCloudMaker::Gather(const LabelledFrame& frame, Gathered& gathered) const {
+  const int step = FindPixelStep(frame, camera_);
+  const cv::Mat usable = FindUsablePixels(frame, Coarsened(options_.cloud, step));
   const auto range = static_cast<float>(options_.range_m);
   const auto unlabelled =
       static_cast<std::uint8_t>(std::lround(255 * options_.cloud.unlabelled_confidence));
-  VoxelFilter near(options_.CloudResolution()), far(options_.resolution_m);
-  for (int row = 0; row < camera_.height; ++row) {
+  const Eigen::Matrix3f rotation = frame.keyframe_from_depth.RotationMatrix().cast<float>();
+  const Eigen::Vector3f origin = frame.keyframe_from_depth.translation().cast<float>();
+  for (int row = 0; row < usable.rows; ++row) {
     const auto* row_usable = usable.ptr<std::uint8_t>(row);
     const auto* row_depth = frame.depth_m.ptr<float>(row);
-    const Eigen::Vector2f* row_rays = &rays_[static_cast<std::size_t>(row) * camera_.width];
+    const Eigen::Vector2f* row_rays = &rays_[static_cast<std::size_t>(row) * step * camera_.width];
     const RowReader reader{frame.color.ptr<cv::Vec3b>(row),
                            RowOf<std::uint8_t>(frame.class_ids, row),
                            RowOf<std::uint8_t>(frame.confidence, row),
                            RowOf<std::uint16_t>(frame.instances, row), unlabelled};
-    for (int column = 0; column < camera_.width; ++column) {
+    for (int column = 0; column < usable.cols; ++column) {
       if (row_usable[column] == 0) continue;
-      const Eigen::Vector3f point =
-          Eigen::Vector3f(row_rays[column].x(), row_rays[column].y(), 1) * row_depth[column];
+      const float depth_m = row_depth[column];
+      const Eigen::Vector2f& ray = row_rays[static_cast<std::ptrdiff_t>(column) * step];
+      const Eigen::Vector3f point = Eigen::Vector3f(ray.x(), ray.y(), 1) * depth_m;
       const float distance = point.norm();
       if (distance <= range) {
-        near.Add(reader.At(column, point));
+        gathered.near.Add(reader.At(column, rotation * point + origin, depth_m));
       } else {
-        far.Add({point * (range / distance), {}, kNoLabel, 0});
+        gathered.far.Add({rotation * (point * (range / distance)) + origin, {}, kNoLabel, 0});
       }
     }
   }
-  KeyframeCloud cloud{near.Points(), {}};
-  for (const LabelledPoint& end : far.Points()) cloud.free_ends_in_camera.push_back(end.position);
+}
+
+KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& keyframe,
+                                       std::span<const LabelledFrame> views) const {
+  Gathered gathered(options_);
+  Gather(keyframe, gathered);
+  for (const LabelledFrame& view : views) Gather(view, gathered);
+  KeyframeCloud cloud{gathered.near.Points(), {}};
+  for (const LabelledPoint& end : gathered.far.Points()) {
+    cloud.free_ends_in_camera.push_back(end.position);
+  }
   return cloud;
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "ofm/camera/pinhole_camera.h"
@@ -38,10 +39,15 @@ class KeyframeCloudMaker {
   KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options);
 
   /// Back-projects the usable pixels (see usable_pixels.h), lens distortion undone, and keeps one
-  /// point per voxel of CloudResolution().
-  KeyframeCloud Make(const LabelledFrame& frame) const;
+  /// point per voxel of CloudResolution(). `views` are frames from nearby, for what the key frame
+  /// does not show.
+  KeyframeCloud Make(const LabelledFrame& keyframe,
+                     std::span<const LabelledFrame> views = {}) const;
 
  private:
+  struct Gathered;
+  void Gather(const LabelledFrame& frame, Gathered& gathered) const;
+
   PinholeCamera camera_;
   DenseOptions options_;
   std::vector<Eigen::Vector2f> rays_;  // (x, y) of the point at z = 1 m behind each pixel

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
 #include "ofm/base/error.h"
 #include "ofm/dense/test_scene.h"
 
@@ -88,6 +91,50 @@ TEST(KeyframeCloud, PointsBeyondTheRangeOnlyFree) {
   }
   ASSERT_GT(cloud.free_ends_in_camera.size(), 200u);
   for (const Eigen::Vector3f& end : cloud.free_ends_in_camera) EXPECT_NEAR(end.norm(), 2.5, .01);
+}
+
+/// The same with every second pixel of every second row.
+LabelledFrame Coarse(LabelledFrame frame) {
+  for (cv::Mat* image :
+       {&frame.color, &frame.depth_m, &frame.class_ids, &frame.confidence, &frame.dynamic_mask}) {
+    cv::resize(*image, *image, {image->cols / 2, image->rows / 2}, 0, 0, cv::INTER_NEAREST);
+  }
+  return frame;
+}
+
+/// Points of the wall behind the place of Person(0).
+std::ptrdiff_t CountBehindPerson(const KeyframeCloud& cloud) {
+  return std::ranges::count_if(cloud.points_in_camera, [](const LabelledPoint& point) {
+    return point.position.z() > 2.9 && std::abs(point.position.x()) < .3 &&
+           std::abs(point.position.y()) < .8;
+  });
+}
+
+TEST(KeyframeCloud, ViewsAddWhatIsHiddenInTheKeyframe) {
+  const KeyframeCloudMaker maker(SmallCamera(), {});
+  const LabelledFrame keyframe =
+      Render(SmallCamera(), {Wall(), Person(0)}, RigidTransform(), KeyframeId(0));
+  EXPECT_EQ(CountBehindPerson(maker.Make(keyframe)), 0);
+  const RigidTransform keyframe_from_view = test::At(.2, .1, -.3);
+  LabelledFrame view =
+      Coarse(Render(SmallCamera(), {Wall(), Person(2)}, keyframe_from_view, KeyframeId()));
+  view.keyframe_from_depth = keyframe_from_view;
+  const KeyframeCloud cloud = maker.Make(keyframe, std::span(&view, 1));
+  EXPECT_GT(CountBehindPerson(cloud), 200);
+  for (const LabelledPoint& point : cloud.points_in_camera) {
+    ASSERT_NEAR(point.position.z(), 3.02, 1e-4);
+  }
+}
+
+TEST(KeyframeCloud, LiesWhereTheCameraWasWhenItsDepthWasTaken) {
+  const RigidTransform color_from_depth = test::At(.03, 0, .05);
+  LabelledFrame frame = Render(SmallCamera(), {Wall(), Chair()}, color_from_depth, KeyframeId(0));
+  frame.keyframe_from_depth = color_from_depth;
+  const KeyframeCloud cloud = KeyframeCloudMaker(SmallCamera(), {}).Make(frame);
+  ASSERT_GT(cloud.points_in_camera.size(), 1000u);
+  for (const LabelledPoint& point : cloud.points_in_camera) {
+    EXPECT_NEAR(point.position.z(), point.class_id == test::kChair ? 2.02 : 3.02, 1e-4);
+  }
 }
 
 TEST(KeyframeCloud, WithoutDepthOrLabelsThereIsStillACloud) {

@@ -18,6 +18,12 @@ bool IsUsablePose(const RigidTransform& world_from_camera, const DenseOptions& o
   return world_from_camera.IsFinite() && FindVoxel(origin, 1 / options.resolution_m);
 }
 
+double MapShift_m(const RigidTransform& before, const RigidTransform& after,
+                  const DenseOptions& options) {
+  const double turn = (after.RotationMatrix() - before.RotationMatrix()).norm() / std::sqrt(2.);
+  return (after.translation() - before.translation()).norm() + turn * options.range_m / 2;
+}
+
 OctreeIntegrator::OctreeIntegrator(const DenseOptions& options)
     : options_(options), octree_(MakeOctree(options)) {}
 
@@ -63,7 +69,7 @@ OctreeIntegrator::Changes OctreeIntegrator::FindChanges(const KeyframeClouds& cl
     if (known == integrated_.end()) {
       changes.added.emplace(id, Integrated{cloud, pose->second, {}});
     } else if (known->second.cloud != cloud ||
-               Displacement_m(known->second.world_from_camera, pose->second) > tolerance_m) {
+               MapShift_m(known->second.world_from_camera, pose->second, options_) > tolerance_m) {
       changes.moved.emplace(id, Integrated{cloud, pose->second, {}});
     }
   }
@@ -74,14 +80,6 @@ OctreeIntegrator::Changes OctreeIntegrator::FindChanges(const KeyframeClouds& cl
     if (!stays) changes.removed.push_back(id);
   }
   return changes;
-}
-
-/// How far a point halfway to the range limit, where most are at most, can move; exactly 0 where
-/// the poses are equal.
-double OctreeIntegrator::Displacement_m(const RigidTransform& before,
-                                        const RigidTransform& after) const {
-  const double turn = (after.RotationMatrix() - before.RotationMatrix()).norm() / std::sqrt(2.);
-  return (after.translation() - before.translation()).norm() + turn * options_.range_m / 2;
 }
 
 void OctreeIntegrator::Insert(Integrated& keyframe) {

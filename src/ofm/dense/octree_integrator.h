@@ -14,6 +14,11 @@ namespace ofm {
 /// False where a pose is not finite, or so far away that the octree has no voxels there.
 bool IsUsablePose(const RigidTransform& world_from_camera, const DenseOptions& options);
 
+/// How far the change of a key frame's pose can move a point of its cloud halfway to the range
+/// limit, where most are at most [m]; exactly 0 where the poses are equal.
+double MapShift_m(const RigidTransform& before, const RigidTransform& after,
+                  const DenseOptions& options);
+
 /// What an update did, in key frames.
 struct IntegrationCounts {
   std::size_t added = 0;         ///< that were new
@@ -32,8 +37,8 @@ class OctreeIntegrator {
   explicit OctreeIntegrator(const DenseOptions& options);
 
   /// Takes in key frames that are new and have a usable pose, takes out those that lost theirs, and
-  /// integrates again those that a point halfway to the range limit can have moved with by more
-  /// than `tolerance_m`. With 0 the octree becomes the one of exactly these poses.
+  /// integrates again those whose pose moved the map by more than `tolerance_m`. With 0 the octree
+  /// becomes the one of exactly these poses.
   IntegrationCounts Update(const KeyframeClouds& clouds, const KeyframePoseMap& world_from_camera,
                            double tolerance_m);
 
@@ -56,7 +61,6 @@ class OctreeIntegrator {
 
   Changes FindChanges(const KeyframeClouds& clouds, const KeyframePoseMap& world_from_camera,
                       double tolerance_m) const;
-  double Displacement_m(const RigidTransform& before, const RigidTransform& after) const;
   void Insert(Integrated& keyframe);
   void InsertAllAnew();
   std::vector<std::uint32_t> Apply(const Changes& changes);

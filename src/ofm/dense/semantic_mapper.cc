@@ -23,10 +23,11 @@ std::uint16_t FindObject(const InstanceObjects& objects, KeyframeId keyframe,
 SemanticMapper::SemanticMapper(const PinholeCamera& camera, const DenseOptions& options)
     : options_(options), cloud_maker_(camera, options) {}
 
-void SemanticMapper::AddKeyframe(const LabelledFrame& frame) {
-  OFM_CHECK(frame.id.valid());
-  clouds_.insert_or_assign(frame.id,
-                           std::make_shared<const KeyframeCloud>(cloud_maker_.Make(frame)));
+void SemanticMapper::AddKeyframe(const LabelledFrame& keyframe,
+                                 std::span<const LabelledFrame> views) {
+  OFM_CHECK(keyframe.id.valid());
+  clouds_.insert_or_assign(
+      keyframe.id, std::make_shared<const KeyframeCloud>(cloud_maker_.Make(keyframe, views)));
 }
 
 SemanticMap SemanticMapper::Build(const KeyframePoseMap& world_from_camera,

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ofm/base/ids.h"
@@ -30,9 +31,9 @@ class SemanticMapper {
   /// Throws Error where an option is out of its range.
   SemanticMapper(const PinholeCamera& camera, const DenseOptions& options);
 
-  /// Keeps the frame's static, labelled surface; the images are not kept. A key frame that is
-  /// there already is replaced.
-  void AddKeyframe(const LabelledFrame& frame);
+  /// Keeps the static, labelled surface of a key frame and of views from nearby; the images are not
+  /// kept. A key frame that is there already is replaced.
+  void AddKeyframe(const LabelledFrame& keyframe, std::span<const LabelledFrame> views = {});
   /// Forgets a key frame; unknown ids do nothing.
   void RemoveKeyframe(KeyframeId id) { clouds_.erase(id); }
 

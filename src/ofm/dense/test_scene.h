@@ -40,6 +40,7 @@ inline LabelledFrame Render(const PinholeCamera& camera, const std::vector<Box>&
                             const RigidTransform& world_from_camera, KeyframeId id) {
   const cv::Size size(camera.width, camera.height);
   LabelledFrame frame{id,
+                      {},
                       cv::Mat(size, CV_8UC3, cv::Scalar::all(0)),
                       cv::Mat(size, CV_32FC1, cv::Scalar(0)),
                       cv::Mat(size, CV_8UC1, cv::Scalar(kNoLabel)),

@@ -5,8 +5,10 @@
 
 namespace ofm {
 
-LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared) {
+LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared,
+                                const RigidTransform& depth_from_color) {
   LabelledFrame labelled;
+  labelled.keyframe_from_depth = depth_from_color.Inverse();
   const LabelImage labels = ComposeLabelImage(prepared.segmentation, prepared.frame.color.size());
   labelled.color = prepared.frame.color;
   labelled.depth_m = prepared.frame.depth_m;
@@ -63,7 +65,7 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   if (!job.labelled.depth_m.empty()) {
     ScopedStageTimer timer(times_, "semantic_cloud");
     job.labelled.id = id;
-    slam_.semantic_mapper().AddKeyframe(job.labelled);
+    slam_.semantic_mapper().AddKeyframe(job.labelled, job.views);
   }
   if (!job.instances.depth_m.empty()) {
     ScopedStageTimer timer(times_, "object_observation");

@@ -16,12 +16,14 @@ namespace ofm {
 struct KeyframeJob {
   KeyframeCandidate candidate;
   std::vector<Sighting> sightings;
-  LabelledFrame labelled;   ///< its id is set by the back end; no images where no map is wanted
-  InstanceFrame instances;  ///< the same, where no objects are wanted
+  LabelledFrame labelled;  ///< its id is set by the back end; no images where no map is wanted
+  std::vector<LabelledFrame> views;  ///< frames since the last keyframe, for the semantic map
+  InstanceFrame instances;           ///< the same, where no objects are wanted
 };
 
-/// The images and labels of a frame as the semantic map takes them.
-LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared);
+/// The images and labels of a keyframe as the semantic map takes them.
+LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared,
+                                const RigidTransform& depth_from_color = {});
 
 /// The images and instances of a frame as objects are made of them.
 InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared);

@@ -2,18 +2,20 @@
 
 #include <spdlog/spdlog.h>
 
+#include <limits>
+
 #include "ofm/base/thread_priority.h"
 #include "ofm/pipeline/thread_urgency.h"
 
 namespace ofm {
 
 OctreeUpkeep::OctreeUpkeep(const DenseOptions& options, UpkeepThread thread)
-    : options_(options), where_(thread), integrator_(options) {}
+    : options_(options), where_(thread), settled_(options, Tolerance_m()), integrator_(options) {}
 
 OctreeUpkeep::~OctreeUpkeep() { Stop(); }
 
-void OctreeUpkeep::Update(KeyframeClouds clouds, KeyframePoseMap world_from_camera) {
-  Job job{std::move(clouds), std::move(world_from_camera)};
+void OctreeUpkeep::Update(KeyframeClouds clouds, const KeyframePoseMap& world_from_camera) {
+  Job job{std::move(clouds), settled_.Update(world_from_camera)};
   if (where_ == UpkeepThread::kCaller) return Integrate(job);
   jobs_.Push(std::move(job));
   if (!thread_.joinable()) thread_ = std::jthread([this](std::stop_token stop) { Run(stop); });
@@ -22,7 +24,11 @@ void OctreeUpkeep::Update(KeyframeClouds clouds, KeyframePoseMap world_from_came
 void OctreeUpkeep::Integrate(const Job& job) {
   ScopedStageTimer timer(times_, "octree_upkeep");
   is_whole_ = false;
-  integrator_.Update(job.clouds, job.world_from_camera, options_.resolution_m / 2);
+  constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
+  const IntegrationCounts counts = integrator_.Update(job.clouds, job.world_from_camera,
+                                                      credit_ >= 0 ? Tolerance_m() : kAnywhere_m);
+  credit_ += static_cast<std::ptrdiff_t>(counts.added) -
+             static_cast<std::ptrdiff_t>(counts.moved + counts.reintegrated);
   is_whole_ = true;
 }
 

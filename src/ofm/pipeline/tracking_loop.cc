@@ -71,13 +71,20 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
     report.map = input.map;
   }
   for (RunObserver* observer : context_.observers) observer->OnFrame(report);
-  if (!result.keyframe || !mapping) return {};
+  const bool for_map = mapping && slam_.options().build_semantic_map;
+  if (!result.keyframe || !mapping) {
+    if (for_map) views_.Add(prepared, result);
+    return {};
+  }
   ++keyframes_made_;
   KeyframeJob job;
   job.candidate = std::move(*result.keyframe);
   job.sightings = std::move(sightings_);
   sightings_.clear();
-  if (slam_.options().build_semantic_map) job.labelled = MakeLabelledFrame(prepared);
+  if (for_map) {
+    if (input.map) job.views = views_.Take(job.candidate, *input.map);
+    job.labelled = MakeLabelledFrame(prepared, result.depth_from_color);
+  }
   if (slam_.makes_objects()) job.instances = MakeInstanceFrame(prepared);
   return job;
 }

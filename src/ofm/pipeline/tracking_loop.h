@@ -7,6 +7,7 @@
 #include "ofm/pipeline/back_end.h"
 #include "ofm/pipeline/runner.h"
 #include "ofm/pipeline/trajectory_log.h"
+#include "ofm/pipeline/view_collector.h"
 
 namespace ofm {
 
@@ -16,7 +17,8 @@ class TrackingLoop {
   TrackingLoop(Slam& slam, const RunContext& context)
       : slam_(slam),
         context_(context),
-        object_tracks_(slam.camera(), slam.options().objects.tracks) {}
+        object_tracks_(slam.camera(), slam.options().objects.tracks),
+        views_(slam.options().dense.cloud.view_stride) {}
 
   /// Tracks one frame against `map`; gives the keyframe to be mapped, if one is to be made.
   std::optional<KeyframeJob> Process(const PreparedFrame& prepared,
@@ -30,6 +32,7 @@ class TrackingLoop {
   const RunContext& context_;
   TrajectoryLog log_;
   TrackLog object_tracks_;
+  ViewCollector views_;
   std::vector<FrameRecord> frames_;
   StageTimes times_;
   std::vector<Sighting> sightings_;  // since the last keyframe

@@ -14,6 +14,12 @@ int CountWithDepth(const FrameFeatures& features) {
       std::ranges::count_if(features.depth_m, [](float depth) { return depth > 0; }));
 }
 
+/// Of the depth image behind the colour image; 0 where both are of one time.
+double DepthDelay_s(const TrackingInput& input) {
+  if (input.depth_m.empty()) return 0;
+  return NanosecondsToSeconds(input.depth_stamp_ns - input.stamp_ns);
+}
+
 }  // namespace
 
 Tracker::Tracker(const MeasurementModel& model, const TrackingOptions& options, std::uint64_t seed)
@@ -36,7 +42,9 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
     return result;
   }
   // Once more with the motion that was found: the predicted one is not good enough for landmarks.
-  const TrackingInput aligned = AlignDepth(input, VelocityTo(input, result));
+  const std::optional<Vector6d> velocity = VelocityTo(input, result);
+  const TrackingInput aligned = AlignDepth(input, velocity);
+  if (velocity) result.depth_from_color = ExpSe3(DepthDelay_s(input) * *velocity);
   const bool is_needed =
       HasPose(result.status) && result.inliers > 0 &&
       NeedsKeyframe(GatherKeyframeEvidence(model_, aligned, result, last_keyframe_frame_),
@@ -60,8 +68,8 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
 TrackingInput Tracker::AlignDepth(const TrackingInput& input,
                                   const std::optional<Vector6d>& velocity) const {
   TrackingInput aligned = input;
-  const double delay_s = NanosecondsToSeconds(input.depth_stamp_ns - input.stamp_ns);
-  if (velocity && !input.depth_m.empty() && delay_s != 0) {
+  const double delay_s = DepthDelay_s(input);
+  if (velocity && delay_s != 0) {
     aligned.features = AlignDepthInTime(*input.features, input.depth_m, ExpSe3(delay_s * *velocity),
                                         model_.camera);
   }

@@ -107,6 +107,23 @@ TEST(Tracker, PredictsWithConstantVelocityWhateverTheTimeBetweenFrames) {
   }
 }
 
+TEST(Tracker, TellsWhereTheCameraWasWhenTheDepthWasTaken) {
+  TrackingRun run(DefaultWorld());
+  const RigidTransform start = run.world().Frame(0).camera_from_world;
+  const Vector6d twist_per_s = (Vector6d() << 0.3, 0, 0.1, 0, 0.2, 0).finished();
+  TrackingResult result;
+  for (std::uint32_t id = 0; id < 4; ++id) {
+    const double time_s = .03 * id;
+    const MadeFrame frame = run.world().Look(id, time_s, ExpSe3(time_s * twist_per_s) * start);
+    result = run.Step(frame, [](TrackingInput& input) {
+      input.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(0));
+      input.depth_stamp_ns = input.stamp_ns + 20'000'000;
+    });
+    if (id < 1) ExpectPose(result.depth_from_color, {}, 1e-12, 1e-9);
+  }
+  ExpectPose(result.depth_from_color, ExpSe3(.02 * twist_per_s), 1e-4, 0.01);
+}
+
 TEST(Tracker, SurvivesDroppedFrames) {
   TrackingRun run;
   for (const std::uint32_t i : {0U, 1U, 2U, 4U, 5U, 8U, 9U, 11U}) {

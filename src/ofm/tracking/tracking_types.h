@@ -70,6 +70,9 @@ struct TrackingResult {
   RigidTransform camera_from_world;  ///< valid where HasPose(status)
   KeyframeId reference;              ///< keyframe that shares most landmarks; invalid at first
   RigidTransform camera_from_reference;
+  /// The camera when the depth image was taken, from the camera when the colour image was; identity
+  /// where its motion is not known.
+  RigidTransform depth_from_color;
   std::vector<LandmarkId> landmarks;  ///< by feature: inliers of the pose
   std::vector<Sighting> sightings;
   int inliers = 0;
