@@ -188,9 +188,10 @@ class MeasureMap(unittest.TestCase):
     def test_a_row_has_shares_in_per_cent_and_lengths_in_their_units(self):
         summary = {'trajectory': {'ate': {'translation_m': {'rmse': 0.0123}}}}
         figures = {'resolution_m': 0.02, 'actor_voxels': 200, 'actor_voxels_occupied': 1, 'actor_residue_share': 0.005,
-                   'surface_share_mapped': 0.951, 'points': 50, 'points_off_surface': 2, 'median_distance_m': 0.0091}
+                   'surface_share_mapped': 0.951, 'surface_voxels_seen': 80, 'surface_voxels_seen_mapped': 78,
+                   'points': 50, 'points_off_surface': 2, 'median_distance_m': 0.0091}
         self.assertEqual(measure_map.row('desk_box', 'off', summary, figures),
-                         '| desk_box | off | 2 cm | 1 of 200 (0.50 %) | 95.1 % | 9.1 | 4.0 % | 1.23 |')
+                         '| desk_box | off | 2 cm | 1 of 200 (0.50 %) | 95.1 % | 97.5 % | 9.1 | 4.0 % | 1.23 |')
 
 
 class CoverCamera(MadeTree):

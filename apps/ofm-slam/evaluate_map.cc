@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "commands.h"
@@ -31,6 +32,7 @@ constexpr const char* kFooter =
     "  actors together put it (no depth edges; pixels fused by their precision; three frames at\n"
     "  least). Of the octree's voxels that hold a piece of it (none whose depth noise is over\n"
     "  half a voxel), those count that are occupied in map.ot or touch one that is;\n"
+    "- which of these any frame of SEQUENCE shows: no map can have the others;\n"
     "- the median distance of map.ply's points from that surface, point to plane; a point with no\n"
     "  surface within 10 cm counts as 10 cm off.\n"
     "Examples:\n"
@@ -39,6 +41,7 @@ constexpr const char* kFooter =
 
 struct MapArguments {
   std::filesystem::path results, sequence, base, json;
+  std::optional<double> depth_delay_s;
 };
 
 /// What the measuring of a run's map starts from.
@@ -67,6 +70,7 @@ cv::Mat LoadMask(const std::filesystem::path& sequence, const RgbdFrame& frame) 
 JudgedMap LoadMap(const MapArguments& arguments) {
   JudgedMap map;
   map.camera = LoadCamera(arguments.results / "camera.yaml");
+  if (arguments.depth_delay_s) map.camera.depth_delay_s = *arguments.depth_delay_s;
   const RgbdSequence sequence(arguments.sequence, map.camera);
   if (!sequence.groundtruth()) throw Error(arguments.sequence, "has no groundtruth.txt");
   map.truth = LoadTrajectory(*sequence.groundtruth());
@@ -95,6 +99,10 @@ SurfaceMetrics MeasureSurface(const JudgedMap& map, const MapArguments& argument
                [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
                  meter.AddFrame(map_from_camera, frame.depth_m);
                });
+  ForEachFrame(arguments.sequence, map,
+               [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
+                 meter.AddView(map_from_camera, frame.depth_m, LoadMask(arguments.sequence, frame));
+               });
   return meter.Evaluate(*map.octree, points);
 }
 
@@ -110,6 +118,9 @@ void Print(const MapMetrics& metrics) {
 void Print(const SurfaceMetrics& metrics) {
   fmt::print("surface  {} of {} voxels of the room without actors are mapped ({:.1f} %)\n",
              metrics.mapped, metrics.surface_voxels, 100 * metrics.mapped_share);
+  fmt::print("seen     {} of these voxels in any frame, {} of them are mapped ({:.1f} %)\n",
+             metrics.seen, metrics.seen_mapped,
+             metrics.seen == 0 ? 0. : 100. * metrics.seen_mapped / metrics.seen);
   fmt::print("accuracy {:.1f} mm, the median of {} points; {} have no surface within 10 cm\n",
              1e3 * metrics.median_distance_m, metrics.points, metrics.points_off);
 }
@@ -127,6 +138,8 @@ nlohmann::ordered_json ToJson(const JudgedMap& map, const MapMetrics& metrics) {
 void AddToJson(const SurfaceMetrics& metrics, nlohmann::ordered_json& json) {
   json["surface_voxels"] = metrics.surface_voxels;
   json["surface_share_mapped"] = metrics.mapped_share;
+  json["surface_voxels_seen"] = metrics.seen;
+  json["surface_voxels_seen_mapped"] = metrics.seen_mapped;
   json["points"] = metrics.points;
   json["points_off_surface"] = metrics.points_off;
   json["median_distance_m"] = metrics.median_distance_m;
@@ -156,6 +169,12 @@ void AddEvaluateMapCommand(CLI::App& app) {
   command->add_option("SEQUENCE", arguments->sequence, "The TUM RGB-D folder that it ran on")
       ->required();
   command->add_option("--static", arguments->base, "The same recording without actors");
+  command
+      ->add_option(
+          "--depth-delay", arguments->depth_delay_s,
+          "By which depth images are stamped late against the ground truth [s]; right, the "
+          "surface has the fewest voxels. Without it the camera's depth_delay_s")
+      ->check(CLI::Range(-1., 1.));
   command->add_option("--json", arguments->json, "Also write all figures to this file");
   command->callback([arguments] { EvaluateMap(*arguments); });
 }

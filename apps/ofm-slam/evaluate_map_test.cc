@@ -72,6 +72,11 @@ TEST_F(EvaluateMapCommand, TheRoomWithoutActorsTellsWhatIsMappedAndHowWell) {
   EXPECT_GT(figures["points"], 500);
   EXPECT_GT(figures["median_distance_m"], 0);
   EXPECT_LT(figures["median_distance_m"], .03);
+  EXPECT_LE(figures["surface_voxels_seen_mapped"], figures["surface_voxels_seen"]);
+  EXPECT_LT(figures["surface_voxels_seen"], figures["surface_voxels"]) << "people hide some";
+  ASSERT_EQ(Evaluate(arguments + " --depth-delay 0.3").exit_code, 0);
+  EXPECT_GT(nlohmann::json::parse(ReadFile(json))["median_distance_m"],
+            figures["median_distance_m"]);
   std::filesystem::remove(recording_.output() / "map.ply");
   const ProgramResult without = Evaluate(arguments);
   EXPECT_EQ(without.exit_code, 1);

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <future>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 
 #include "ofm/base/options.h"
 #include "ofm/base/time.h"
@@ -46,17 +49,24 @@ std::vector<TrackedFrame> FindFrames(const RgbdSequence& sequence, const Traject
 /// Frames of the sequence with their recorded masks.
 class ViewReader {
  public:
-  ViewReader(const RgbdSequence& sequence, std::filesystem::path masks)
-      : sequence_(sequence), masks_(std::move(masks)) {}
+  ViewReader(const RgbdSequence& sequence, const Trajectory& trajectory,
+             std::filesystem::path masks)
+      : sequence_(sequence), trajectory_(trajectory), masks_(std::move(masks)) {}
 
   SceneView Read(const TrackedFrame& tracked) const {
     const RgbdFrame frame = sequence_.Load(tracked.index);
-    return {tracked.pose.stamp_ns, tracked.pose.world_from_camera, frame.color, frame.depth_m,
+    const RigidTransform& pose = tracked.pose.world_from_camera;
+    return {tracked.pose.stamp_ns,
+            pose,
+            InterpolatePose(trajectory_, frame.depth_stamp_ns).value_or(pose),
+            frame.color,
+            frame.depth_m,
             LoadMaskImage(masks_ / (frame.name + ".png"), frame.color.size())};
   }
 
  private:
   const RgbdSequence& sequence_;
+  const Trajectory& trajectory_;
   std::filesystem::path masks_;
 };
 
@@ -101,6 +111,46 @@ class KeyframeWindow {
   std::map<std::size_t, std::shared_ptr<const StaticView>> read_;  // by index
 };
 
+/// Fills frames and writes them, as many at a time as there are cores.
+class FrameFiller {
+ public:
+  FrameFiller(const BackgroundInpainter& inpainter, std::filesystem::path folder,
+              double depth_scale)
+      : inpainter_(inpainter), folder_(std::move(folder)), depth_scale_(depth_scale) {}
+
+  /// Waits while all cores are busy. Throws what went wrong with an earlier frame.
+  void Fill(SceneView view, std::vector<std::shared_ptr<const StaticView>> sources,
+            std::string name) {
+    if (under_way_.size() >= std::max(1U, std::thread::hardware_concurrency())) WaitForOne();
+    under_way_.push_back(
+        std::async(std::launch::async, [this, view = std::move(view), sources = std::move(sources),
+                                        name = std::move(name)] { Write(view, sources, name); }));
+  }
+  void WaitForAll() {
+    while (!under_way_.empty()) WaitForOne();
+  }
+
+ private:
+  void WaitForOne() {
+    std::future<void> first = std::move(under_way_.front());
+    under_way_.pop_front();
+    first.get();
+  }
+  void Write(const SceneView& view, std::span<const std::shared_ptr<const StaticView>> sources,
+             const std::string& name) const {
+    const InpaintedFrame filled = inpainter_.Inpaint(view, sources);
+    cv::Mat depth;
+    filled.depth_m.convertTo(depth, CV_16UC1, depth_scale_);
+    WritePng(folder_ / "rgb" / name, filled.color);
+    WritePng(folder_ / "depth" / name, depth);
+  }
+
+  const BackgroundInpainter& inpainter_;
+  std::filesystem::path folder_;
+  double depth_scale_;
+  std::deque<std::future<void>> under_way_;
+};
+
 }  // namespace
 
 HiddenPixelRecorder::HiddenPixelRecorder(const std::filesystem::path& folder)
@@ -117,29 +167,31 @@ void HiddenPixelRecorder::OnFrame(const FrameReport& report) {
 }
 
 void WriteInpaintedFrames(const std::filesystem::path& folder, const RgbdSequence& sequence,
-                          const RunOutcome& outcome, const DenseOptions& options) {
+                          const RunOutcome& outcome, const DenseOptions& options,
+                          const std::stop_token& stop) {
   MakeFolder(folder / "rgb");
   MakeFolder(folder / "depth");
   PinholeCamera camera = sequence.camera();
   const BackgroundInpainter inpainter(camera, options.cloud, options.inpainting);
-  const ViewReader reader(sequence, folder / "mask");
+  const ViewReader reader(sequence, outcome.trajectory, folder / "mask");
   KeyframeWindow window(reader, inpainter, FindFrames(sequence, outcome.keyframe_trajectory),
                         options.inpainting);
+  FrameFiller filler(inpainter, folder, camera.depth_scale);
   const std::vector<TrackedFrame> frames = FindFrames(sequence, outcome.trajectory);
   std::string associations = "# time, colour, time, depth\n";
+  // A stop that ended the run wants its frames filled; one that comes now does not.
+  const bool may_stop = !stop.stop_requested();
   ShareBar bar("in-painting");
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = 0; i < frames.size() && !(may_stop && stop.stop_requested()); ++i) {
     const SceneView view = reader.Read(frames[i]);
-    const InpaintedFrame filled = inpainter.Inpaint(view, window.Around(view.stamp_ns));
-    const std::string name =
-        sequence.entries()[frames[i].index].color.path.stem().string() + ".png";
-    cv::Mat depth;
-    filled.depth_m.convertTo(depth, CV_16UC1, camera.depth_scale);
-    WritePng(folder / "rgb" / name, filled.color);
-    WritePng(folder / "depth" / name, depth);
-    associations += fmt::format("{0} rgb/{1} {0} depth/{1}\n", FormatSeconds(view.stamp_ns), name);
+    const TumEntry& entry = sequence.entries()[frames[i].index];
+    const std::string name = entry.color.path.stem().string() + ".png";
+    filler.Fill(view, window.Around(view.stamp_ns), name);
+    associations += fmt::format("{0} rgb/{1} {2} depth/{1}\n", FormatSeconds(view.stamp_ns), name,
+                                FormatSeconds(entry.depth.stamp_ns));
     bar.OnShare(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
+  filler.WaitForAll();
   WriteFileAtomically(folder / "associations.txt", associations);
   WriteFileAtomically(folder / "camera.yaml", PrintOptionsYaml(OptionFields(camera)));
 }

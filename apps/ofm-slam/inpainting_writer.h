@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 
 #include "ofm/dense/dense_options.h"
 #include "ofm/geometry/trajectory.h"
@@ -25,9 +26,11 @@ class HiddenPixelRecorder : public RunObserver {
 };
 
 /// After the run: FOLDER/rgb, depth, associations.txt and camera.yaml with every tracked frame,
-/// the recorded pixels filled from the keyframes around it (BackgroundInpainter). Shows progress on
-/// the terminal. Throws Error where a file cannot be read or written.
+/// the recorded pixels filled from the keyframes around it (BackgroundInpainter), on all cores.
+/// Shows progress on the terminal. A stop that is requested meanwhile leaves the folder with the
+/// frames so far. Throws Error where a file cannot be read or written.
 void WriteInpaintedFrames(const std::filesystem::path& folder, const RgbdSequence& sequence,
-                          const RunOutcome& outcome, const DenseOptions& options);
+                          const RunOutcome& outcome, const DenseOptions& options,
+                          const std::stop_token& stop);
 
 }  // namespace ofm

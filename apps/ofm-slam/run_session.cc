@@ -221,7 +221,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   SaveFinalMap(settings, camera, report);
   if (hidden) {
     WriteInpaintedFrames(settings.write_inpainted, *sequence, report.outcome,
-                         settings.options.dense);
+                         settings.options.dense, stop);
   }
   return report;
 }

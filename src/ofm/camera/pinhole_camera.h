@@ -19,6 +19,7 @@ struct PinholeCamera {
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;      ///< Brown–Conrady: radial k, tangential p
   double depth_scale = 5000;                          ///< depth image units per metre
   double baseline_m = 0.075;  ///< of the depth sensor; sets its noise and close range
+  double depth_delay_s = 0;   ///< of a depth image's stamp behind the moment that it shows
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -35,6 +36,10 @@ struct PinholeCamera {
     visit("k3", self.k3, "radial distortion r^6");
     visit("depth_scale", self.depth_scale, "depth image units per metre", Range{1e-3, 1e9});
     visit("baseline_m", self.baseline_m, "baseline of the depth sensor [m]", Range{1e-3, 10});
+    visit(
+        "depth_delay_s", self.depth_delay_s,
+        "of a depth image's stamp behind the moment that it shows, against the colour image's [s]",
+        Range{-1, 1});
   }
 
   /// The point's ideal pixel; its z must not be 0.

@@ -131,7 +131,8 @@ TEST(PinholeCamera, KnowsWhatIsInTheImage) {
 
 TEST(PinholeCamera, OptionsReachEveryParameter) {
   using P = PinholeCamera;
-  const std::pair<const char*, double P::*> reals[] = {{"fx", &P::fx},
+  const std::pair<const char*, double P::*> reals[] = {{"depth_delay_s", &P::depth_delay_s},
+                                                       {"fx", &P::fx},
                                                        {"fy", &P::fy},
                                                        {"cx", &P::cx},
                                                        {"cy", &P::cy},
@@ -147,7 +148,8 @@ TEST(PinholeCamera, OptionsReachEveryParameter) {
   EXPECT_EQ(fields.size(), std::size(reals) + 2);
   double value = 0;
   for (const auto& [name, member] : reals) {
-    ApplyOptionAssignment(std::string(name) + "=" + std::to_string(++value), fields);
+    value += .5;
+    ApplyOptionAssignment(std::string(name) + "=" + std::to_string(value), fields);
     EXPECT_EQ(camera.*member, value) << name;
   }
   ApplyOptionAssignment("width=320", fields);

@@ -49,8 +49,13 @@ struct WarpedView {
 
 class Warper {
  public:
-  Warper(const PinholeCamera& camera, const SceneView& target, const cv::Mat& hidden)
-      : camera_(camera), target_(target), hidden_(hidden) {
+  /// `world_from_target` is where the target was when that of its images was taken that is filled.
+  Warper(const PinholeCamera& camera, const SceneView& target,
+         const RigidTransform& world_from_target, const cv::Mat& hidden)
+      : camera_(camera),
+        target_(target),
+        target_from_world_(world_from_target.Inverse()),
+        hidden_(hidden) {
     constexpr int kMargin_px = 48;  // more than the lens moves a point
     const cv::Rect box = cv::boundingRect(hidden);
     near_hidden_ = {box.x - kMargin_px, box.y - kMargin_px, box.width + 2 * kMargin_px,
@@ -60,12 +65,10 @@ class Warper {
   WarpedView Warp(const StaticView& source) const {
     WarpedView warped{
         cv::Mat::zeros(hidden_.size(), CV_32FC1), cv::Mat::zeros(hidden_.size(), CV_8UC3), {}};
-    const RigidTransform target_from_source =
-        target_.world_from_camera.Inverse() * source.world_from_camera;
-    const Eigen::Matrix3f rotation = target_from_source.RotationMatrix().cast<float>();
-    const Eigen::Vector3f translation = target_from_source.translation().cast<float>();
-    for (std::size_t i = 0; i < source.points_in_camera.size(); ++i) {
-      const Eigen::Vector3f point = rotation * source.points_in_camera[i] + translation;
+    const Eigen::Matrix3f rotation = target_from_world_.RotationMatrix().cast<float>();
+    const Eigen::Vector3f translation = target_from_world_.translation().cast<float>();
+    for (std::size_t i = 0; i < source.points_in_world.size(); ++i) {
+      const Eigen::Vector3f point = rotation * source.points_in_world[i] + translation;
       constexpr float kMinDepth_m = .1F;
       if (point.z() < kMinDepth_m) continue;
       if (i % kExposureStep != 0 && !MayBeHidden(point)) continue;
@@ -110,6 +113,7 @@ class Warper {
 
   const PinholeCamera& camera_;
   const SceneView& target_;
+  RigidTransform target_from_world_;
   const cv::Mat& hidden_;
   cv::Rect near_hidden_;
 };
@@ -174,6 +178,22 @@ std::vector<WarpedView> WarpAll(const Warper& warper, std::int64_t stamp_ns,
   return views;
 }
 
+/// Gives the surface at each hidden pixel that views show, to `take`.
+template <class Take>
+void FillHidden(const std::vector<WarpedView>& views, const cv::Mat& hidden,
+                const InpaintingOptions& options, Take&& take) {
+  std::vector<Candidate> candidates;
+  for (int row = 0; row < hidden.rows; ++row) {
+    for (int column = 0; column < hidden.cols; ++column) {
+      if (hidden.at<std::uint8_t>(row, column) == 0) continue;
+      GatherCandidates(views, row, column, candidates);
+      if (!candidates.empty()) {
+        take(cv::Point(column, row), ChooseSurface(candidates, options));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 BackgroundInpainter::BackgroundInpainter(const PinholeCamera& camera,
@@ -181,8 +201,19 @@ BackgroundInpainter::BackgroundInpainter(const PinholeCamera& camera,
                                          const InpaintingOptions& options)
     : camera_(camera), cloud_(cloud), options_(options), table_(camera) {}
 
+/// Empty where the point is not in the image.
+std::optional<cv::Vec3b> BackgroundInpainter::FindColor(
+    const cv::Mat& color, const Eigen::Vector3d& point_in_camera) const {
+  if (point_in_camera.z() <= 0) return {};
+  const Eigen::Vector2d pixel = camera_.Project(point_in_camera);
+  const Eigen::Array2i nearest = pixel.array().round().cast<int>();
+  if (!cv::Rect({}, color.size()).contains({nearest.x(), nearest.y()})) return {};
+  return color.at<cv::Vec3b>(nearest.y(), nearest.x());
+}
+
 StaticView BackgroundInpainter::MakeStaticView(const SceneView& view) const {
-  StaticView result{view.stamp_ns, view.world_from_camera, {}, {}};
+  StaticView result{view.stamp_ns, {}, {}};
+  const RigidTransform color_from_world = view.world_from_camera.Inverse();
   LabelledFrame frame;
   frame.depth_m = view.depth_m;
   frame.dynamic_mask = view.hidden;
@@ -190,10 +221,13 @@ StaticView BackgroundInpainter::MakeStaticView(const SceneView& view) const {
   for (int row = 0; row < usable.rows; ++row) {
     for (int column = 0; column < usable.cols; ++column) {
       if (usable.at<std::uint8_t>(row, column) == 0) continue;
-      const Eigen::Vector3d point = camera_.UnprojectIdeal(table_.At(column, row).cast<double>(),
-                                                           view.depth_m.at<float>(row, column));
-      result.points_in_camera.push_back(point.cast<float>());
-      result.colors.push_back(view.color.at<cv::Vec3b>(row, column));
+      const Eigen::Vector3d point =
+          view.world_from_depth * camera_.UnprojectIdeal(table_.At(column, row).cast<double>(),
+                                                         view.depth_m.at<float>(row, column));
+      const auto color = FindColor(view.color, color_from_world * point);
+      if (!color) continue;
+      result.points_in_world.push_back(point.cast<float>());
+      result.colors.push_back(*color);
     }
   }
   return result;
@@ -209,20 +243,17 @@ InpaintedFrame BackgroundInpainter::Inpaint(
   frame.color.setTo(0, frame.hidden);
   frame.depth_m.setTo(0, frame.hidden);
   if (cv::countNonZero(frame.hidden) == 0) return frame;
-  const std::vector<WarpedView> views =
-      WarpAll(Warper(camera_, target, frame.hidden), target.stamp_ns, sources);
-  std::vector<Candidate> candidates;
-  for (int row = 0; row < frame.hidden.rows; ++row) {
-    for (int column = 0; column < frame.hidden.cols; ++column) {
-      if (frame.hidden.at<std::uint8_t>(row, column) == 0) continue;
-      GatherCandidates(views, row, column, candidates);
-      if (candidates.empty()) continue;
-      const Candidate surface = ChooseSurface(candidates, options_);
-      frame.depth_m.at<float>(row, column) = surface.depth_m;
-      frame.color.at<cv::Vec3b>(row, column) = surface.color;
-      frame.filled.at<std::uint8_t>(row, column) = 255;
-    }
-  }
+  const auto fill = [&](const RigidTransform& world_from_target, auto&& take) {
+    const Warper warper(camera_, target, world_from_target, frame.hidden);
+    FillHidden(WarpAll(warper, target.stamp_ns, sources), frame.hidden, options_, take);
+  };
+  fill(target.world_from_camera, [&](const cv::Point& pixel, const Candidate& surface) {
+    frame.color.at<cv::Vec3b>(pixel) = surface.color;
+  });
+  fill(target.world_from_depth, [&](const cv::Point& pixel, const Candidate& surface) {
+    frame.depth_m.at<float>(pixel) = surface.depth_m;
+    frame.filled.at<std::uint8_t>(pixel) = 255;
+  });
   return frame;
 }
 

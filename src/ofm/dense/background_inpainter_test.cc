@@ -18,7 +18,7 @@ constexpr double kSecond_ns = 1e9;
 std::shared_ptr<SceneView> View(const std::vector<test::Box>& boxes, double x, double second) {
   const LabelledFrame frame = test::Render(test::SmallCamera(), boxes, At(x, 0, 0), KeyframeId(0));
   return std::make_shared<SceneView>(SceneView{static_cast<std::int64_t>(second * kSecond_ns),
-                                               At(x, 0, 0), frame.color, frame.depth_m,
+                                               At(x, 0, 0), At(x, 0, 0), frame.color, frame.depth_m,
                                                frame.dynamic_mask});
 }
 
@@ -57,6 +57,22 @@ class BackgroundInpainterTest : public testing::Test {
     return static_cast<double>(right) / hidden;
   }
 };
+
+/// Colour seen at `x`, depth a moment later, the camera having gone 0.1 m on.
+std::shared_ptr<SceneView> MovingView(const std::vector<test::Box>& boxes, double x,
+                                      double second) {
+  const auto view = View(boxes, x, second);
+  view->world_from_depth = At(x + .1, 0, 0);
+  view->depth_m = View(boxes, x + .1, second)->depth_m;
+  return view;
+}
+
+TEST_F(BackgroundInpainterTest, FillsEachImageAsAtItsOwnTime) {
+  const std::vector<std::shared_ptr<SceneView>> sources = {
+      MovingView(RoomWithPerson(-.9), .05, -1), MovingView(RoomWithPerson(1.9), -.05, 1)};
+  const auto target = MovingView(RoomWithPerson(.5), 0, 0);
+  EXPECT_GT(ShareRight(Inpaint(*target, sources), *MovingView(kEmptyRoom, 0, 0)), .85);
+}
 
 TEST_F(BackgroundInpainterTest, ShowsWhatThePersonHid) {
   const auto target = View(RoomWithPerson(.5), 0, 0);

@@ -15,13 +15,11 @@
 namespace ofm {
 namespace {
 
-bool IsMapped(const octomap::ColorOcTree& octree, const VoxelIndex& voxel) {
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dz = -1; dz <= 1; ++dz) {
-        if (IsOccupied(octree, voxel + VoxelIndex(dx, dy, dz))) return true;
-      }
-    }
+/// Whether `is` holds for the voxel or one of the 26 around.
+template <class Is>
+bool HoldsNear(const VoxelIndex& voxel, Is&& is) {
+  for (int i = 0; i < 27; ++i) {
+    if (is(VoxelIndex(voxel + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)))) return true;
   }
   return false;
 }
@@ -108,12 +106,13 @@ SurfaceMeter::SurfaceMeter(const PinholeCamera& camera, const SurfaceMeterOption
   OFM_CHECK(options.resolution_m > 0 && options.range_m > 0 && options.reach_m > 0);
 }
 
-void SurfaceMeter::AddFrame(const RigidTransform& map_from_camera, const cv::Mat& depth_m) {
+/// Visits row, column, depth [m] and place in the map of the smooth pixels in range.
+template <class Visit>
+void SurfaceMeter::ForEachPoint(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
+                                Visit&& visit) const {
   OFM_CHECK(depth_m.type() == CV_32FC1);
   OFM_CHECK(depth_m.cols == camera_.width && depth_m.rows == camera_.height);
   const cv::Mat usable = FindSmoothPixels(depth_m, {});
-  const Eigen::Vector3f viewpoint = map_from_camera.translation().cast<float>();
-  ++frame_;
   for (int row = 0; row < depth_m.rows; row += kPixelStep) {
     for (int column = 0; column < depth_m.cols; column += kPixelStep) {
       const double depth = depth_m.at<float>(row, column);
@@ -121,19 +120,38 @@ void SurfaceMeter::AddFrame(const RigidTransform& map_from_camera, const cv::Mat
       const Eigen::Vector3d point =
           camera_.UnprojectIdeal(table_.At(column, row).cast<double>(), depth);
       if (point.norm() > options_.range_m) continue;
-      LabelledPoint pixel;
-      pixel.position = (map_from_camera * point).cast<float>();
-      const auto index = FindVoxel(pixel.position, 1 / options_.resolution_m);
-      if (!index) continue;
-      const std::uint32_t number = voxel_numbers_.Insert(*index);
-      if (number == voxels_.size()) voxels_.emplace_back();
-      Voxel& voxel = voxels_[number];
-      if (voxel.last_frame != frame_) ++voxel.frames;
-      voxel.last_frame = frame_;
-      pixel.precision = static_cast<float>(1 / (DepthSigma(depth) * DepthSigma(depth)));
-      pixels_.Add(pixel, viewpoint);
+      const Eigen::Vector3f position = (map_from_camera * point).cast<float>();
+      const auto voxel = FindVoxel(position, 1 / options_.resolution_m);
+      if (voxel) visit(cv::Point(column, row), depth, position, *voxel);
     }
   }
+}
+
+void SurfaceMeter::AddFrame(const RigidTransform& map_from_camera, const cv::Mat& depth_m) {
+  const Eigen::Vector3f viewpoint = map_from_camera.translation().cast<float>();
+  ++frame_;
+  ForEachPoint(
+      map_from_camera, depth_m,
+      [&](cv::Point, double depth, const Eigen::Vector3f& position, const VoxelIndex& index) {
+        const std::uint32_t number = voxel_numbers_.Insert(index);
+        if (number == voxels_.size()) voxels_.emplace_back();
+        Voxel& voxel = voxels_[number];
+        if (voxel.last_frame != frame_) ++voxel.frames;
+        voxel.last_frame = frame_;
+        LabelledPoint pixel;
+        pixel.position = position;
+        pixel.precision = static_cast<float>(1 / (DepthSigma(depth) * DepthSigma(depth)));
+        pixels_.Add(pixel, viewpoint);
+      });
+}
+
+void SurfaceMeter::AddView(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
+                           const cv::Mat& actors) {
+  OFM_CHECK(actors.type() == CV_8UC1 && actors.size() == depth_m.size());
+  ForEachPoint(map_from_camera, depth_m,
+               [&](cv::Point pixel, double, const Eigen::Vector3f&, const VoxelIndex& voxel) {
+                 if (actors.at<std::uint8_t>(pixel) == 0) seen_.Insert(voxel);
+               });
 }
 
 std::vector<LabelledPoint> SurfaceMeter::FindSurface() const {
@@ -156,8 +174,14 @@ SurfaceMetrics SurfaceMeter::Evaluate(const octomap::ColorOcTree& octree,
     if (1 / std::sqrt(point.precision) > options_.resolution_m / 2) continue;
     const auto voxel = FindVoxel(point.position, 1 / options_.resolution_m);
     if (counted.Insert(*voxel) < metrics.surface_voxels) continue;
+    const bool mapped =
+        HoldsNear(*voxel, [&](const VoxelIndex& near) { return IsOccupied(octree, near); });
+    const bool seen =
+        HoldsNear(*voxel, [&](const VoxelIndex& near) { return seen_.Find(near).has_value(); });
     ++metrics.surface_voxels;
-    metrics.mapped += IsMapped(octree, *voxel);
+    metrics.mapped += mapped;
+    metrics.seen += seen;
+    metrics.seen_mapped += seen && mapped;
   }
   if (metrics.surface_voxels > 0) {
     metrics.mapped_share =

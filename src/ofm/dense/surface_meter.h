@@ -19,6 +19,8 @@ struct SurfaceMetrics {
   std::size_t surface_voxels = 0;  ///< that the static surface fills
   std::size_t mapped = 0;          ///< of these, occupied or with one of the 26 around occupied
   double mapped_share = 0;         ///< 0 where there are none
+  std::size_t seen = 0;            ///< of the surface voxels, by frames that AddView told
+  std::size_t seen_mapped = 0;     ///< of these, mapped
   std::size_t points = 0;          ///< of the map
   std::size_t points_off = 0;      ///< of these, with no static surface within reach_m
   double median_distance_m = 0;    ///< of all points, those off the surface at reach_m
@@ -37,6 +39,9 @@ struct SurfaceMeterOptions {
 /// pixels, no depth edges, within the range) are fused with their precision and thinned as
 /// ThinSurfaces does, and stay where `min_frames` images agree on the voxel of the octree.
 ///
+/// Seen: of its voxels those that hold static pixels of frames which somebody hides it from, or one
+/// of the 26 around. What was never seen no map can have.
+///
 /// Voxels: those that hold a piece of the surface that was seen from so near that the standard
 /// deviation of its depth is under half a voxel: what is farther says more of the sensor than of
 /// the room.
@@ -51,12 +56,20 @@ class SurfaceMeter {
   /// depth_m: CV_32FC1 [m], 0 = none.
   void AddFrame(const RigidTransform& map_from_camera, const cv::Mat& depth_m);
 
+  /// Of the recording that was mapped: `actors`, CV_8UC1, is not 0 where an actor is.
+  void AddView(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
+               const cv::Mat& actors);
+
   /// Of the octree and the cloud as read from the files that are judged; the octree's resolution
   /// must be that of the options.
   SurfaceMetrics Evaluate(const octomap::ColorOcTree& octree,
                           std::span<const LabelledPoint> points_in_map) const;
 
  private:
+  template <class Visit>
+  void ForEachPoint(const RigidTransform& map_from_camera, const cv::Mat& depth_m,
+                    Visit&& visit) const;
+
   struct Voxel {
     int frames = 0, last_frame = 0;
   };
@@ -68,6 +81,7 @@ class SurfaceMeter {
   SurfaceMeterOptions options_;
   int frame_ = 0;
   VoxelTable voxel_numbers_;  // of the octree's size
+  VoxelTable seen_;           // likewise
   std::vector<Voxel> voxels_;
   ViewVoxelFilter pixels_;
 };

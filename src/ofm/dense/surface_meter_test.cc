@@ -55,6 +55,22 @@ TEST(SurfaceMeter, WhatSomebodyAlwaysHidIsNotMapped) {
   EXPECT_LT(metrics.median_distance_m, 1e-4);
 }
 
+TEST(SurfaceMeter, WhatIsNeverSeenIsToldApart) {
+  SurfaceMeter meter(SmallCamera(), {});
+  for (int i = 0; i < kFrames; ++i) {
+    const RigidTransform pose = At(.05 * i, 0, 0);
+    const LabelledFrame hidden = Look({Wall(), Chair(), Person(0)}, i);
+    meter.AddFrame(pose, Look({Wall(), Chair()}, i).depth_m);
+    meter.AddView(pose, hidden.depth_m, hidden.dynamic_mask);
+  }
+  const SemanticMap map = MapOf({Wall(), Chair(), Person(0)});
+  const SurfaceMetrics metrics = meter.Evaluate(*MakeColorOcTree(map.octree), map.cloud_in_world);
+  EXPECT_LT(metrics.seen, .9 * metrics.surface_voxels);
+  EXPECT_GT(metrics.seen, .6 * metrics.surface_voxels);
+  EXPECT_GT(metrics.seen_mapped, .96 * metrics.seen);
+  EXPECT_LE(metrics.seen_mapped, metrics.mapped);
+}
+
 TEST(SurfaceMeter, AMapThatIsOffIsInaccurate) {
   const SurfaceMetrics metrics = Measure(MapOf({Wall(), Chair()}, At(0, 0, .03)));
   EXPECT_NEAR(metrics.median_distance_m, .03, 1e-3);

@@ -9,7 +9,8 @@
 namespace ofm {
 
 /// Reads a camera from YAML (the fields of PinholeCamera) or, where the name ends in .json, from
-/// JSON: width, height, fx, fy, cx, cy, distortion [k1, k2, p1, p2, k3], depth_scale, baseline_m.
+/// JSON: width, height, fx, fy, cx, cy, distortion [k1, k2, p1, p2, k3], depth_scale, baseline_m,
+/// depth_delay_s.
 /// Size, focal lengths and principal point are required, the rest has PinholeCamera's defaults.
 /// Throws Error with path and line: not readable, unknown key, wrong type, out of range, missing.
 PinholeCamera LoadCamera(const std::filesystem::path& path);

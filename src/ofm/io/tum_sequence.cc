@@ -8,6 +8,7 @@
 
 #include "ofm/base/check.h"
 #include "ofm/base/error.h"
+#include "ofm/base/time.h"
 #include "ofm/io/image_file.h"
 
 namespace ofm {
@@ -48,7 +49,7 @@ RgbdFrame RgbdSequence::Load(std::size_t index) const {
   frame.id = FrameId(static_cast<std::uint32_t>(index));
   frame.name = color.path.stem().string();
   frame.stamp_ns = color.stamp_ns;
-  frame.depth_stamp_ns = depth.stamp_ns;
+  frame.depth_stamp_ns = depth.stamp_ns - SecondsToNanoseconds(camera_.depth_delay_s);
   frame.color = LoadListed(color, camera_, LoadColorImage);
   cv::cvtColor(frame.color, frame.gray, cv::COLOR_BGR2GRAY);
   frame.depth_m = LoadListed(depth, camera_, [&](const std::filesystem::path& path) {

@@ -56,6 +56,14 @@ class RgbdSequenceTest : public testing::Test {
   TestFolder folder_;
 };
 
+TEST_F(RgbdSequenceTest, DepthIsOlderThanItsStampByTheCamerasDelay) {
+  PinholeCamera camera = Open()->camera();
+  camera.depth_delay_s = .015;
+  const RgbdFrame frame = RgbdSequence(folder_.path(), camera).Load(2);
+  EXPECT_EQ(frame.stamp_ns, 2'500'000'000);
+  EXPECT_EQ(frame.depth_stamp_ns, 2'495'000'000);
+}
+
 TEST_F(RgbdSequenceTest, LoadsAFrame) {
   const auto sequence = Open();
   ASSERT_EQ(sequence->size(), 3u);

@@ -83,7 +83,8 @@ StoredMap LoadMap(const std::filesystem::path& path, std::shared_ptr<const Vocab
 
 void RequireSameSettings(const std::filesystem::path& path, MapSettings stored,
                          MapSettings wanted) {
-  wanted.camera.depth_scale = stored.camera.depth_scale;
+  wanted.camera.depth_scale = stored.camera.depth_scale;  // of the recording, not of the map
+  wanted.camera.depth_delay_s = stored.camera.depth_delay_s;
   const std::vector<OptionField> theirs = OptionFields(stored), ours = OptionFields(wanted);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     if (theirs[i].print() == ours[i].print()) continue;

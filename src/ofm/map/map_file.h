@@ -46,7 +46,7 @@ StoredMap LoadMap(const std::filesystem::path& path,
                   std::shared_ptr<const Vocabulary> vocabulary = SharedDefaultVocabulary());
 
 /// Throws Error that names the first setting in which the map at `path` and those who want to go on
-/// with it differ. The scale of depth images may: the map is in metres.
+/// with it differ. The scale and delay of depth images may: the map is in metres.
 void RequireSameSettings(const std::filesystem::path& path, MapSettings stored, MapSettings wanted);
 
 }  // namespace ofm

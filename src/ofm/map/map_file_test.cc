@@ -206,6 +206,7 @@ TEST_F(MapFile, OtherSettingsAreNamed) {
   const MapSettings stored;
   MapSettings wanted;
   wanted.camera.depth_scale = 1000;
+  wanted.camera.depth_delay_s = .5;
   EXPECT_EQ(ErrorOf([&] { RequireSameSettings(path_, stored, wanted); }), "");
   wanted.camera.fx = 517.3;
   EXPECT_EQ(ErrorOf([&] { RequireSameSettings(path_, stored, wanted); }),

@@ -12,7 +12,7 @@ namespace {
 using test::PlaySource;
 using test::Recording;
 
-constexpr int kHere = 6, kCovered = 3, kThere = 14;
+constexpr int kHere = 6, kCovered = 3, kThere = 24;
 
 /// kHere frames of a room, some with the camera covered, and kThere of the room's mirror image.
 class CarriedCamera : public testing::Test {
@@ -70,7 +70,8 @@ TEST_F(CarriedCamera, ResultsAreOfTheLargestSubmapAlone) {
     EXPECT_EQ(test::FindProblem(*outcome.map), "");
     EXPECT_EQ(outcome.trajectory.size() + outcome.unjoined.front().trajectory.size(),
               outcome.counts.frames_tracked);
-    EXPECT_GE(outcome.counts.frames_tracked, kHere + kThere - 5U);
+    // The threaded runner begins a sub-map when mapping waits for nothing, whenever that is.
+    EXPECT_GE(outcome.counts.frames_tracked, kHere + kThere - 12U);
     EXPECT_EQ(outcome.unjoined.front().id, SubmapId(0));
     EXPECT_GE(outcome.unjoined.front().trajectory.size(), static_cast<std::size_t>(kHere));
     for (const Trajectory* trajectory :
