@@ -27,9 +27,9 @@ def configurations(shared, sequences):
     ]
 
 
-def run(program, sequence, arguments, seed, output):
+def run(program, sequence, arguments, seed, output, camera='tum-fr1'):
     """Runs once; returns the summary."""
-    command = [program, 'run', str(sequence), '--camera', 'tum-fr1', '--seed', str(seed), '--quiet',
+    command = [program, 'run', str(sequence), '--camera', camera, '--seed', str(seed), '--quiet',
                '--output', str(output), *arguments]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return json.loads((output / 'summary.json').read_text())
