@@ -80,28 +80,24 @@ JudgedMap LoadMap(const MapArguments& arguments) {
   return map;
 }
 
-MapMetrics MeasureActors(const JudgedMap& map, const std::filesystem::path& sequence) {
+MapMetricsMeter MakeMapMeter(const JudgedMap& map) {
   MapMetricsOptions options;
   options.resolution_m = map.octree->getResolution();
-  MapMetricsMeter meter(map.camera, options);
-  ForEachFrame(sequence, map, [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
-    meter.AddFrame(map_from_camera, frame.depth_m, LoadMask(sequence, frame));
-  });
-  return meter.Evaluate(*map.octree);
+  return {map.camera, options};
 }
 
-SurfaceMetrics MeasureSurface(const JudgedMap& map, const MapArguments& arguments) {
+SurfaceMeter MakeSurfaceMeter(const JudgedMap& map) {
   SurfaceMeterOptions options;
   options.resolution_m = map.octree->getResolution();
+  return {map.camera, options};
+}
+
+SurfaceMetrics MeasureSurface(SurfaceMeter& meter, const JudgedMap& map,
+                              const MapArguments& arguments) {
   const std::vector<LabelledPoint> points = LoadPly(arguments.results / "map.ply");
-  SurfaceMeter meter(map.camera, options);
   ForEachFrame(arguments.base, map,
                [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
                  meter.AddFrame(map_from_camera, frame.depth_m);
-               });
-  ForEachFrame(arguments.sequence, map,
-               [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
-                 meter.AddView(map_from_camera, frame.depth_m, LoadMask(arguments.sequence, frame));
                });
   return meter.Evaluate(*map.octree, points);
 }
@@ -147,11 +143,21 @@ void AddToJson(const SurfaceMetrics& metrics, nlohmann::ordered_json& json) {
 
 void EvaluateMap(const MapArguments& arguments) {
   const JudgedMap map = LoadMap(arguments);
-  const MapMetrics actors = MeasureActors(map, arguments.sequence);
+  MapMetricsMeter actor_meter = MakeMapMeter(map);
+  SurfaceMeter surface_meter = MakeSurfaceMeter(map);
+  ForEachFrame(arguments.sequence, map,
+               [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
+                 const cv::Mat mask = LoadMask(arguments.sequence, frame);
+                 actor_meter.AddFrame(map_from_camera, frame.depth_m, mask);
+                 if (!arguments.base.empty()) {
+                   surface_meter.AddView(map_from_camera, frame.depth_m, mask);
+                 }
+               });
+  const MapMetrics actors = actor_meter.Evaluate(*map.octree);
   nlohmann::ordered_json json = ToJson(map, actors);
   Print(actors);
   if (!arguments.base.empty()) {
-    const SurfaceMetrics surface = MeasureSurface(map, arguments);
+    const SurfaceMetrics surface = MeasureSurface(surface_meter, map, arguments);
     AddToJson(surface, json);
     Print(surface);
   }
