@@ -39,8 +39,8 @@ struct SurfaceMeterOptions {
 /// pixels, no depth edges, within the range) are fused with their precision and thinned as
 /// ThinSurfaces does, and stay where `min_frames` images agree on the voxel of the octree.
 ///
-/// Seen: of its voxels those that hold static pixels of frames which somebody hides it from, or one
-/// of the 26 around. What was never seen no map can have.
+/// Seen: those of its voxels that hold static pixels of the recording that was mapped, or touch one
+/// that does. What was never seen no map can have.
 ///
 /// Voxels: those that hold a piece of the surface that was seen from so near that the standard
 /// deviation of its depth is under half a voxel: what is farther says more of the sensor than of

@@ -21,7 +21,7 @@ struct KeyframeJob {
   InstanceFrame instances;           ///< the same, where no objects are wanted
 };
 
-/// The images and labels of a keyframe as the semantic map takes them.
+/// The images and labels of a frame as the semantic map takes them, in the frame's own camera.
 LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared,
                                 const RigidTransform& depth_from_color = {});
 
