@@ -37,15 +37,24 @@ PreparedFrame Coarse(const PreparedFrame& prepared) {
 }  // namespace
 
 void ViewCollector::Add(const PreparedFrame& prepared, const TrackingResult& result) {
-  if (stride_ == 0 || ++frames_ < stride_ || !HasPose(result.status)) return;
+  if (stride_ == 0 || ++frames_ < stride_now_ || !HasPose(result.status)) return;
   frames_ = 0;
   views_.push_back({MakeLabelledFrame(Coarse(prepared), result.depth_from_color), result.reference,
                     result.camera_from_reference});
+  if (views_.size() == kMaxViews) ThinOut();
+}
+
+/// Drops each second view, and takes half as many from now on.
+void ViewCollector::ThinOut() {
+  std::size_t index = 0;
+  std::erase_if(views_, [&](const View&) { return index++ % 2 == 0; });
+  stride_now_ *= 2;
 }
 
 std::vector<LabelledFrame> ViewCollector::Take(const KeyframeCandidate& keyframe,
                                                const MapSnapshot& map) {
   frames_ = 0;
+  stride_now_ = stride_;
   std::vector<LabelledFrame> taken;
   for (View& view : std::exchange(views_, {})) {
     const auto camera_from_world = map.FindKeyframePose(view.reference);

@@ -11,10 +11,14 @@
 namespace ofm {
 
 /// Keeps every `stride`-th frame with a pose until the next keyframe is made, which takes them into
-/// its cloud: what people hid there, they may not have hidden a moment before. Serves one thread.
+/// its cloud: what people hid there, they may not have hidden a moment before. Where no keyframe
+/// comes for long, as a camera that stands still needs none, views are thinned out evenly in time,
+/// so that there are never more than kMaxViews. Serves one thread.
 class ViewCollector {
  public:
-  explicit ViewCollector(int stride) : stride_(stride) {}
+  static constexpr std::size_t kMaxViews = 32;
+
+  explicit ViewCollector(int stride) : stride_(stride), stride_now_(stride) {}
 
   /// A frame that became no keyframe.
   void Add(const PreparedFrame& prepared, const TrackingResult& result);
@@ -30,7 +34,10 @@ class ViewCollector {
     RigidTransform camera_from_reference;
   };
 
-  int stride_, frames_ = 0;  // since the last view or keyframe
+  void ThinOut();
+
+  int stride_, stride_now_;  // since the last keyframe
+  int frames_ = 0;           // since the last view or keyframe
   std::vector<View> views_;
 };
 

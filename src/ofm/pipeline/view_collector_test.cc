@@ -99,6 +99,25 @@ TEST_F(ViewCollectorTest, TakesEachNthFrameSinceTheLastKeyframe) {
   EXPECT_TRUE(Take(collector).empty());
 }
 
+TEST_F(ViewCollectorTest, ViewsOfALongTimeAreThinnedOutEvenly) {
+  ViewCollector collector(1);
+  const int frames = 1000;
+  for (int i = 1; i <= frames; ++i) {
+    PreparedFrame prepared = MakeFrame();
+    prepared.frame.depth_m.setTo(i);
+    collector.Add(prepared, Tracked());
+  }
+  const std::vector<LabelledFrame> views = Take(collector);
+  ASSERT_LE(views.size(), ViewCollector::kMaxViews);
+  ASSERT_GE(views.size(), ViewCollector::kMaxViews / 2);
+  const float step = 32;  // 1,000 frames in at most 32 views, by doubling
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_EQ(views[i].depth_m.at<float>(0, 0), step * static_cast<float>(i + 1));
+  }
+  for (int i = 0; i < 3; ++i) collector.Add(MakeFrame(), Tracked());
+  EXPECT_EQ(Take(collector).size(), 3U) << "begins anew with its own stride";
+}
+
 TEST_F(ViewCollectorTest, NothingIsKeptWithAStrideOfZero) {
   ViewCollector collector(0);
   for (int i = 0; i < 5; ++i) collector.Add(MakeFrame(), Tracked());
