@@ -13,6 +13,7 @@ void AddMapCommand(CLI::App& app);
 void AddObjectsCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
 void AddPlotCommand(CLI::App& app);
+void AddRenderCommand(CLI::App& app);
 void AddDemoCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
 void AddModelsCommand(CLI::App& app);

@@ -46,6 +46,7 @@ int RunCommandLine(int argc, char** argv) {
   ofm::AddObjectsCommand(app);
   ofm::AddReportCommand(app);
   ofm::AddPlotCommand(app);
+  ofm::AddRenderCommand(app);
   ofm::AddDemoCommand(app);
   ofm::AddSimulateCommand(app);
   ofm::AddModelsCommand(app);

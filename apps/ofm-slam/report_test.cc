@@ -97,6 +97,24 @@ TEST_F(ReportCommand, DrawsPng) {
   EXPECT_GT(deviation[2], deviation[0]) << "the first run is blue";
 }
 
+TEST_F(ReportCommand, RendersCloudAndOctreeOfRunsSideBySide) {
+  const std::string both = "render " + Out() + " " + Out() + " --width 200 --what cloud octree -o ";
+  const ProgramResult result = RunProgram(both + File("map.png").string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, File("map.png").string() + "\n");
+  const cv::Mat picture = cv::imread(File("map.png").string(), cv::IMREAD_COLOR);
+  ASSERT_EQ(picture.cols, 2 * 200);
+  ASSERT_EQ(picture.rows % 2, 0);
+  for (const int row : {0, picture.rows / 2}) {
+    const cv::Mat tile = picture(cv::Rect(0, row + 40, 200, picture.rows / 2 - 40));
+    EXPECT_GT(cv::mean(tile.reshape(1) != 255)[0], 255 * .1) << "much of it is drawn";
+    EXPECT_EQ(cv::norm(tile, picture(cv::Rect(200, row + 40, 200, tile.rows))), 0)
+        << "the same run";
+  }
+  ASSERT_EQ(RunProgram(both + File("label.png").string() + " --color label").exit_code, 0);
+  EXPECT_NE(ReadFile(File("label.png")), ReadFile(File("map.png")));
+}
+
 TEST_F(ReportCommand, BadInputIsOneErrorLine) {
   ExpectError("report", "OUT is required");
   ExpectError("report /nowhere", "/nowhere: is no folder; name one that ofm-slam run has written");
@@ -108,6 +126,9 @@ TEST_F(ReportCommand, BadInputIsOneErrorLine) {
   ExpectError("plot " + Out() + " --output plan.pdf", "plan.pdf: name a file that ends in .svg");
   ExpectError("plot " + Out() + " --kind pie --output p.svg", "pie");
   ExpectError("plot " + Out() + " --kind plan", "--output");
+  ExpectError("render " + Out() + " --output map.jpg", "map.jpg: name a file that ends in .png");
+  ExpectError("render " + Out() + " --output /nowhere/map.png", "/nowhere/map.png");
+  ExpectError("render " + Out() + " --what pie -o p.png", "pie");
 }
 
 TEST_F(ReportCommand, ADamagedResultIsNamedWithItsLine) {
@@ -120,16 +141,22 @@ TEST_F(ReportCommand, ADamagedResultIsNamedWithItsLine) {
 TEST_F(ReportCommand, APlotWithoutItsDataSaysHowToGetIt) {
   const auto copy = File("copy");
   std::filesystem::copy(recording_->output(), copy, std::filesystem::copy_options::recursive);
-  for (const char* file : {"summary.json", "frames.csv"}) std::filesystem::remove(copy / file);
+  for (const char* file : {"summary.json", "frames.csv", "map.ot"}) {
+    std::filesystem::remove(copy / file);
+  }
   const std::string plot = "plot " + copy.string() + " --output " + File("p.svg").string();
   ExpectError(plot + " --kind ate", "--ground-truth");
   ExpectError(plot + " --kind culled", "has no frames.csv");
   EXPECT_FALSE(std::filesystem::exists(File("p.svg")));
+  ExpectError("render " + copy.string() + " --what octree -o " + File("p.png").string(),
+              "has no map.ot; run with --set build_semantic_map=true");
 }
 
 TEST(Report, HelpGivesExamples) {
   EXPECT_THAT(RunProgram("report --help").out,
               AllOf(HasSubstr("--ground-truth"), HasSubstr("Examples:\n  ofm-slam report out\n")));
+  EXPECT_THAT(RunProgram("render --help").out,
+              AllOf(HasSubstr("--what"), HasSubstr("Examples:\n")));
   EXPECT_THAT(RunProgram("plot --help").out, AllOf(HasSubstr("--kind"), HasSubstr("Examples:\n")));
 }
 

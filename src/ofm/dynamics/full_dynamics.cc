@@ -64,6 +64,10 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
     result.followed.push_back({instance.id, instance.class_id, instance.score, instance.mask});
     AddDilated(instance.mask, options_.dilation_px, result.unmapped);
   }
+  // Whole detections too, refined away or not: maps would show them with their class.
+  for (const Instance& instance : segmentation.instances) {
+    if (policies_.MayMove(instance.class_id)) result.unmapped.setTo(255, instance.mask);
+  }
   result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
   if (verdict.camera_motion.is_measured) {
     result.camera_motion =

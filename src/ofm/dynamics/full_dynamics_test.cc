@@ -170,8 +170,7 @@ class StandingInstance : public testing::Test {
       const double share = ShareSet(result.mask, desk & (frames[i].depth_m > 0));
       if (i == 0) shares.first = share;
       shares.second = share;
-      EXPECT_GT(ShareSet(result.unmapped, desk & (frames[i].depth_m > 0)), 0.7)
-          << "what may move is never mapped";
+      EXPECT_EQ(ShareSet(result.unmapped, desk), 1) << "what may move is never mapped";
     }
     return shares;
   }
