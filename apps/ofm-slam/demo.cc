@@ -12,37 +12,37 @@
 #include "ofm/base/error.h"
 #include "ofm/io/atomic_file.h"
 #include "ofm/report/report_page.h"
-#include "ofm/sim/tum_writer.h"
 #include "run_session.h"
+#include "simulated_recording.h"
 
 namespace ofm {
 namespace {
 
 constexpr const char* kFooter =
-    "Simulates a camera in a room in which people walk closely before it, and tracks it twice:\n"
-    "with the people culled by their masks (the paper's method), and with nothing culled. Needs "
-    "no\n"
-    "data, network or connection. report.html compares both runs. The recording is a TUM RGB-D\n"
-    "folder with ground truth and masks, good for 'ofm-slam run'.\n"
+    "Simulates a camera in an office in which people walk about, and tracks it twice: with the\n"
+    "people culled by their masks and by what moves, and with nothing culled. Needs no data,\n"
+    "network or connection. report.html compares both runs. The recording is a TUM RGB-D folder\n"
+    "with ground truth and masks, as 'ofm-slam simulate' makes it, good for 'ofm-slam run'.\n"
     "Examples:\n"
     "  ofm-slam demo\n"
-    "  ofm-slam demo --output out/other_room --seed 5 --frames 90\n"
+    "  ofm-slam demo --output out/other_room --seed 5 --frames 100\n"
     "  ofm-slam run out/demo/sequence --segmenter masks --threaded --output out/again";
 
 struct DemoArguments {
   std::filesystem::path output = "out/demo";
-  int frames = 120;
-  std::uint64_t seed = 1;
+  int frames = 200;
+  std::uint64_t seed = 3;
   bool quiet = false;
 };
 
 SimSequenceOptions DemoSequence(const DemoArguments& arguments) {
-  SimSequenceOptions options;
+  SimSequenceOptions options = HandHeldOptions();
   options.seed = arguments.seed;
   options.frames = arguments.frames;
-  options.path.kind = CameraPathKind::kXyz;
-  options.room.people = 3;
-  options.room.mover_distance_m = 1.1;
+  options.camera = MakeSimCamera(640, 480);
+  options.world.scene = SceneKind::kOffice;
+  options.world.people = PeopleKind::kWalking;
+  options.path.kind = CameraPathKind::kHalfsphere;
   options.noise.model = NoiseModel::kKinect;
   return options;
 }
@@ -55,8 +55,7 @@ RunReport RunDemo(const DemoArguments& arguments, const char* name, DynamicsMode
   settings.quiet = arguments.quiet;
   settings.options.seed = arguments.seed;
   settings.options.dynamics.mode = mode;
-  settings.options.perception.segmenter =
-      mode == DynamicsMode::kOff ? SegmenterKind::kNone : SegmenterKind::kMasks;
+  settings.options.perception.segmenter = SegmenterKind::kMasks;  // for labels, if not to cull
   RunReport report = RunSession(settings);
   if (!report.outcome.error.empty()) throw Error(report.outcome.error);
   return report;
@@ -110,10 +109,11 @@ std::filesystem::path WriteReport(const std::filesystem::path& output) {
 void Demo(const DemoArguments& arguments) {
   cv::setNumThreads(1);  // as in run
   PrepareOutputFolder(arguments.output);
-  fmt::print("simulating {} frames of a room with people in the way (seed {})\n", arguments.frames,
-             arguments.seed);
+  fmt::print("simulating {} frames of an office with people in the way (seed {})\n",
+             arguments.frames, arguments.seed);
   std::fflush(stdout);
-  WriteTumSequence(SimSequence(DemoSequence(arguments)), arguments.output / "sequence");
+  WriteRecording(SimSequence(DemoSequence(arguments)), arguments.output / "sequence",
+                 {.quiet = arguments.quiet});
   const std::array reports = {RunDemo(arguments, "with_culling", DynamicsMode::kFull),
                               RunDemo(arguments, "without_culling", DynamicsMode::kOff)};
   fmt::print("\n");
@@ -134,14 +134,14 @@ void Demo(const DemoArguments& arguments) {
 void AddDemoCommand(CLI::App& app) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* command =
-      app.add_subcommand("demo", "Simulate a room with people; track with and without culling");
+      app.add_subcommand("demo", "Simulate an office with people; track with and without culling");
   command->footer(kFooter);
   command->add_option("--output,-o", arguments->output, "Folder for the recording and the results")
       ->capture_default_str();
   command->add_option("--frames", arguments->frames, "Frames to simulate, at 30 a second")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Another seed is another room with other people")
+  command->add_option("--seed", arguments->seed, "Another seed is another office with other people")
       ->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->callback([arguments] { Demo(*arguments); });

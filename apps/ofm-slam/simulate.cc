@@ -7,18 +7,14 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/utility.hpp>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "commands.h"
-#include "instance_writer.h"
 #include "ofm/base/error.h"
 #include "ofm/base/timing.h"
 #include "ofm/io/make_folder.h"
-#include "ofm/sim/tum_writer.h"
-#include "share_bar.h"
+#include "simulated_recording.h"
 
 namespace ofm {
 namespace {
@@ -67,17 +63,12 @@ void SetDistortion(const std::vector<double>& coefficients, PinholeCamera& camer
 }
 
 SimSequenceOptions ResolveOptions(const SimulateArguments& arguments) {
-  SimSequenceOptions options;
+  SimSequenceOptions options = HandHeldOptions();
   options.seed = arguments.seed;
   options.frames = arguments.frames;
   options.rate_hz = arguments.rate_hz;
   options.camera = ParseSize(arguments.size);
   SetDistortion(arguments.distortion, options.camera);
-  // As a recording by hand with a Kinect is.
-  options.path.jitter_m = 3e-3;
-  options.path.jitter_deg = 0.25;
-  options.noise.shadow = 1;
-  options.noise.dark_dropout = 0.4;
   if (arguments.blur) options.imaging.exposure_s = 0.015;
   if (arguments.exposure) options.imaging.exposure_swing = 0.6;
   const std::vector<OptionField> fields = OptionFields(options);
@@ -121,18 +112,9 @@ void Simulate(const SimulateArguments& arguments) {
   cv::setNumThreads(1);  // the frames are in threads already
   const std::int64_t start_ns = SteadyTimeNs();
   const SimSequence sequence(options);
-  const InstanceWriter instances(sequence.scene(), arguments.output / "mask");
-  std::optional<ShareBar> bar;
-  if (!arguments.quiet) bar.emplace("simulating");
-  TumWriterOptions writing;
-  if (arguments.flow) writing.flow = FlowFiles::kWrite;
-  writing.threads = arguments.threads > 0
-                        ? arguments.threads
-                        : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  writing.on_frame = [&](const SimFrame& frame) { instances.Write(frame); };
-  if (bar) writing.on_share = [&](double share) { bar->OnShare(share); };
-  WriteTumSequence(sequence, arguments.output, writing);
-  bar.reset();
+  WriteRecording(
+      sequence, arguments.output,
+      {arguments.flow ? FlowFiles::kWrite : FlowFiles::kNone, arguments.threads, arguments.quiet});
   PrintSummary(arguments, sequence, 1e-9 * static_cast<double>(SteadyTimeNs() - start_ns));
 }
 
