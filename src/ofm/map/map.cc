@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ofm/features/hamming.h"
+
 namespace ofm {
 namespace {
 
@@ -44,15 +46,17 @@ SubmapId SubmapOf(const Anchored& anchored) {
   return anchored.keyframe == nullptr ? SubmapId() : anchored.keyframe->submap;
 }
 
+/// That many of a landmark's descriptors tell which is typical: the time that takes goes with their
+/// square, and a landmark that is seen again every day has no end of them.
+constexpr std::size_t kMostDescriptors = 64;
+
 /// The descriptor with the least median distance to the others (Mur-Artal et al. 2015).
 Descriptor MostTypical(const std::vector<Descriptor>& descriptors) {
   std::size_t best = 0;
   int best_median = std::numeric_limits<int>::max();
-  std::vector<int> distances(descriptors.size());
+  std::vector<std::uint16_t> distances(descriptors.size());
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
-    for (std::size_t j = 0; j < descriptors.size(); ++j) {
-      distances[j] = HammingDistance(descriptors[i], descriptors[j]);
-    }
+    HammingDistances(descriptors[i], descriptors, distances);
     const auto middle = distances.begin() + (distances.size() - 1) / 2;
     std::nth_element(distances.begin(), middle, distances.end());
     if (*middle < best_median) best_median = *middle, best = i;
@@ -202,11 +206,15 @@ void Map::RefreshLandmark(LandmarkId id) {
   Landmark& landmark = landmarks_.Edit(id);
   OFM_CHECK(!landmark.observations.empty());
   Eigen::Vector3d view_sum = Eigen::Vector3d::Zero();
-  std::vector<Descriptor> descriptors;
   for (const Landmark::Observation& o : landmark.observations) {
     const Keyframe& keyframe = keyframes_.Get(o.keyframe);
     view_sum += (landmark.position_in_world - keyframe.CenterInWorld()).normalized();
-    descriptors.push_back(keyframe.features->descriptors[o.feature]);
+  }
+  const std::size_t seen = landmark.observations.size(), count = std::min(seen, kMostDescriptors);
+  std::vector<Descriptor> descriptors;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Landmark::Observation& o = landmark.observations[i * seen / count];
+    descriptors.push_back(keyframes_.Get(o.keyframe).features->descriptors[o.feature]);
   }
   landmark.mean_view = view_sum.normalized().cast<float>();
   landmark.descriptor = MostTypical(descriptors);

@@ -126,6 +126,23 @@ TEST(MapRefreshLandmark, TakesTheDescriptorNearestToTheOthers) {
   EXPECT_EQ(map.GetLandmark(id).descriptor, typical);
 }
 
+TEST(MapRefreshLandmark, TakesATypicalDescriptorOfALandmarkSeenVeryOften) {
+  // Each third sighting is another thing's; of the rest each is 5 bits off, at places of its own.
+  RandomEngine engine = MakeRandomEngine(1, 0);
+  const Descriptor typical = test::RandomDescriptor(engine);
+  constexpr int kSightings = 300;
+  Map map(test::TestScales());
+  for (int i = 0; i < kSightings; ++i) {
+    const Descriptor d =
+        i % 3 == 0 ? test::RandomDescriptor(engine) : FlipBits(typical, 5, i % 50 * 5);
+    map.AddKeyframe(MakeTestKeyframe(MakeTestFeatures({{{320, 240}, 2, 0, d, 0}})));
+  }
+  const LandmarkId id = map.AddLandmark(kPoint, KeyframeId(0), 0);
+  for (int i = 1; i < kSightings; ++i) map.AddObservation(id, KeyframeId(i), 0);
+  map.RefreshLandmark(id);
+  EXPECT_EQ(HammingDistance(map.GetLandmark(id).descriptor, typical), 5);
+}
+
 TEST(MapCountSightings, AddsToBothCountsAlsoByAReplacedName) {
   Map map = MakeMap(1);
   const LandmarkId old_name = map.AddLandmark(kPoint, KeyframeId(0), 0);
