@@ -144,20 +144,21 @@ void AddToJson(const SurfaceMetrics& metrics, nlohmann::ordered_json& json) {
 void EvaluateMap(const MapArguments& arguments) {
   const JudgedMap map = LoadMap(arguments);
   MapMetricsMeter actor_meter = MakeMapMeter(map);
-  SurfaceMeter surface_meter = MakeSurfaceMeter(map);
+  std::optional<SurfaceMeter> surface_meter;
+  if (!arguments.base.empty()) surface_meter = MakeSurfaceMeter(map);
   ForEachFrame(arguments.sequence, map,
                [&](const RigidTransform& map_from_camera, const RgbdFrame& frame) {
                  const cv::Mat mask = LoadMask(arguments.sequence, frame);
                  actor_meter.AddFrame(map_from_camera, frame.depth_m, mask);
-                 if (!arguments.base.empty()) {
-                   surface_meter.AddView(map_from_camera, frame.depth_m, mask);
+                 if (surface_meter) {
+                   surface_meter->AddView(map_from_camera, frame.depth_m, mask);
                  }
                });
   const MapMetrics actors = actor_meter.Evaluate(*map.octree);
   nlohmann::ordered_json json = ToJson(map, actors);
   Print(actors);
-  if (!arguments.base.empty()) {
-    const SurfaceMetrics surface = MeasureSurface(surface_meter, map, arguments);
+  if (surface_meter) {
+    const SurfaceMetrics surface = MeasureSurface(*surface_meter, map, arguments);
     AddToJson(surface, json);
     Print(surface);
   }

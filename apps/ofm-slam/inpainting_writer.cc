@@ -15,16 +15,11 @@
 #include "ofm/io/atomic_file.h"
 #include "ofm/io/image_file.h"
 #include "ofm/io/make_folder.h"
+#include "png_writer.h"
 #include "share_bar.h"
 
 namespace ofm {
 namespace {
-
-void WritePng(const std::filesystem::path& path, const cv::Mat& image) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
-  WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
 
 /// A tracked frame of the sequence.
 struct TrackedFrame {

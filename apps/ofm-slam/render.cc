@@ -1,15 +1,15 @@
 // ofm-slam render: pictures of maps, as a camera in the room would show them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "commands.h"
 #include "ofm/base/error.h"
-#include "ofm/io/atomic_file.h"
 #include "ofm/report/map_picture.h"
 #include "ofm/report/run_record.h"
+#include "png_writer.h"
 
 namespace ofm {
 namespace {
@@ -23,7 +23,7 @@ constexpr const char* kFooter =
     "  ofm-slam render out --what octree --color label --back 2 --above 1.5 -o octree.png\n"
     "  ofm-slam render out/off out/full --what cloud octree -o with_and_without_culling.png";
 
-constexpr RecordLimits kLimits = {5'000'000, 1'000'000};
+constexpr std::size_t kMostPoints = 5'000'000, kMostVoxels = 1'000'000;
 constexpr int kTitle_px = 36;
 
 struct RenderArguments {
@@ -44,14 +44,26 @@ const RigidTransform& PoseNear(const Trajectory& trajectory, std::int64_t stamp_
       ->world_from_camera;
 }
 
+/// What is drawn is read, and nothing else.
+RecordLimits LimitsFor(const std::vector<std::string>& parts) {
+  const auto wants = [&](const char* part) {
+    return std::ranges::find(parts, part) != parts.end();
+  };
+  return {wants("cloud") ? kMostPoints : 0, wants("octree") ? kMostVoxels : 0};
+}
+
 cv::Mat Draw(const RunRecord& run, const std::string& part, const Viewpoint& viewpoint,
              MapColor color) {
-  const char* file = part == "cloud" ? "map.ply" : "map.ot";
-  if (part == "cloud" ? !run.cloud : !run.voxels) {
-    throw Error(run.folder, fmt::format("has no {}; run with --set build_semantic_map=true", file));
+  const auto missing = [&](const char* file) {
+    return Error(run.folder,
+                 fmt::format("has no {}; run with --set build_semantic_map=true", file));
+  };
+  if (part == "cloud") {
+    if (!run.cloud) throw missing("map.ply");
+    return DrawCloud(*run.cloud, viewpoint, color);
   }
-  return part == "cloud" ? DrawCloud(*run.cloud, viewpoint, color)
-                         : DrawVoxels(*run.voxels, viewpoint, color);
+  if (!run.voxels) throw missing("map.ot");
+  return DrawVoxels(*run.voxels, viewpoint, color);
 }
 
 cv::Mat WithTitle(const cv::Mat& picture, const std::string& title) {
@@ -68,7 +80,9 @@ void Render(const RenderArguments& arguments) {
     throw Error(arguments.output, "name a file that ends in .png");
   }
   std::vector<RunRecord> runs;
-  for (const auto& folder : arguments.folders) runs.push_back(LoadRunRecord(folder, kLimits));
+  for (const auto& folder : arguments.folders) {
+    runs.push_back(LoadRunRecord(folder, LimitsFor(arguments.parts)));
+  }
   const std::vector<std::string> names = NamesOf(arguments.folders);
   for (const RunRecord& run : runs) {
     if (run.trajectory.empty()) throw Error(run.folder, "its trajectory.txt has no pose");
@@ -91,9 +105,7 @@ void Render(const RenderArguments& arguments) {
   }
   cv::Mat picture;
   cv::vconcat(rows, picture);
-  std::vector<unsigned char> png;
-  cv::imencode(".png", picture, png);
-  WriteFileAtomically(arguments.output, {reinterpret_cast<const char*>(png.data()), png.size()});
+  WritePng(arguments.output, picture);
   fmt::print("{}\n", arguments.output.string());
 }
 

@@ -4,15 +4,17 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
 #include "ofm/base/check.h"
+#include "ofm/camera/pinhole_camera.h"
 #include "ofm/dense/label_color.h"
 
 namespace ofm {
 namespace {
 
 constexpr double kNearest_m = 0.1, kPoint_m = 0.03, kLookedAt_m = 2;
-const cv::Scalar kBackground(255, 255, 255);
 
 Rgb ColorOf(MapColor color, Rgb appearance, std::uint8_t class_id) {
   if (color == MapColor::kAppearance) return appearance;
@@ -21,22 +23,70 @@ Rgb ColorOf(MapColor color, Rgb appearance, std::uint8_t class_id) {
   return {pale(appearance.r), pale(appearance.g), pale(appearance.b)};
 }
 
-/// Of points in the camera's frame.
-struct Projection {
+PinholeCamera CameraOf(const Viewpoint& viewpoint) {
+  PinholeCamera camera;
+  camera.width = viewpoint.size.width, camera.height = viewpoint.size.height;
+  camera.fx = camera.fy = .5 * camera.width / std::tan(.5 * viewpoint.field_of_view);
+  camera.cx = .5 * camera.width, camera.cy = .5 * camera.height;
+  return camera;
+}
+
+/// Where a point is in the picture [px], and how far ahead.
+struct Projected {
+  Eigen::Vector2d pixel;
+  double depth_m = 0;
+};
+
+class Projection {
+ public:
   explicit Projection(const Viewpoint& viewpoint)
-      : focal_px(.5 * viewpoint.size.width / std::tan(.5 * viewpoint.field_of_view)),
-        center(.5 * viewpoint.size.width, .5 * viewpoint.size.height),
-        camera_from_world(viewpoint.world_from_camera.Inverse()) {
+      : camera_(CameraOf(viewpoint)), camera_from_world_(viewpoint.world_from_camera.Inverse()) {
     OFM_CHECK(viewpoint.size.width > 0 && viewpoint.size.height > 0);
   }
 
-  Eigen::Vector2d operator()(const Eigen::Vector3d& point_in_camera) const {
-    return point_in_camera.head<2>() * (focal_px / point_in_camera.z()) + center;
+  /// Empty where the point is not ahead, or too far outside the picture for integers.
+  std::optional<Projected> operator()(const Eigen::Vector3d& point_in_world) const {
+    constexpr double kFar_px = 1e6;
+    const Eigen::Vector3d point = camera_from_world_ * point_in_world;
+    if (!(point.z() > kNearest_m)) return {};
+    const Eigen::Vector2d pixel = camera_.ProjectIdeal(point);
+    if (!(pixel.cwiseAbs().maxCoeff() < kFar_px)) return {};
+    return Projected{pixel, point.z()};
   }
 
-  double focal_px;
-  Eigen::Vector2d center;
-  RigidTransform camera_from_world;
+  double focal_px() const { return camera_.fx; }
+
+ private:
+  PinholeCamera camera_;
+  RigidTransform camera_from_world_;
+};
+
+cv::Mat BlankPicture(cv::Size size) { return {size, CV_8UC3, cv::Scalar::all(255)}; }
+
+/// A picture in which the nearest wins.
+class DepthPicture {
+ public:
+  explicit DepthPicture(cv::Size size)
+      : picture_(BlankPicture(size)), nearest_m_(size, CV_32FC1, cv::Scalar(1e9)) {}
+
+  void PaintSquare(const Projected& middle, int side_px, Rgb color) {
+    const cv::Rect square(static_cast<int>(std::ceil(middle.pixel.x() - .5 * side_px)),
+                          static_cast<int>(std::ceil(middle.pixel.y() - .5 * side_px)), side_px,
+                          side_px);
+    const cv::Rect seen = square & cv::Rect({}, picture_.size());
+    for (int row = seen.y; row < seen.br().y; ++row) {
+      for (int column = seen.x; column < seen.br().x; ++column) {
+        auto& nearest = nearest_m_.at<float>(row, column);
+        if (middle.depth_m >= nearest) continue;
+        nearest = static_cast<float>(middle.depth_m);
+        picture_.at<cv::Vec3b>(row, column) = {color.b, color.g, color.r};
+      }
+    }
+  }
+  const cv::Mat& picture() const { return picture_; }
+
+ private:
+  cv::Mat picture_, nearest_m_;
 };
 
 /// Side of a cube that looks at the camera.
@@ -69,16 +119,16 @@ void AddFaces(const LabelledVoxel& voxel, double side_m, Rgb color, const Eigen:
     Eigen::Vector3d middle = center;
     middle[axis] += std::copysign(half, towards);
     Face face{(middle - eye).norm(), {}, Shaded(color, axis)};
-    bool is_ahead = true;
+    bool is_drawn = true;
     for (int i = 0; i < 4; ++i) {
       Eigen::Vector3d corner = middle;
       corner[(axis + 1) % 3] += i == 0 || i == 3 ? -half : half;
       corner[(axis + 2) % 3] += i < 2 ? -half : half;
-      const Eigen::Vector3d in_camera = project.camera_from_world * corner;
-      is_ahead = is_ahead && in_camera.z() > kNearest_m;
-      if (is_ahead) face.corners.at(i) = ToSubpixels(project(in_camera));
+      const auto projected = project(corner);
+      is_drawn = is_drawn && projected;
+      if (is_drawn) face.corners.at(i) = ToSubpixels(projected->pixel);
     }
-    if (is_ahead) faces.push_back(face);
+    if (is_drawn) faces.push_back(face);
   }
 }
 
@@ -96,30 +146,15 @@ RigidTransform Overlook(const RigidTransform& world_from_camera, double back_m, 
 
 cv::Mat DrawCloud(const LabelledCloud& cloud, const Viewpoint& viewpoint, MapColor color) {
   const Projection project(viewpoint);
-  cv::Mat picture(viewpoint.size, CV_8UC3, kBackground);
-  cv::Mat nearest_m(viewpoint.size, CV_32FC1, cv::Scalar(1e9));
-  const cv::Rect whole({}, viewpoint.size);
+  DepthPicture picture(viewpoint.size);
   for (const LabelledPoint& point : cloud.points) {
-    const Eigen::Vector3d place = project.camera_from_world * point.position.cast<double>();
-    if (!(place.z() > kNearest_m)) continue;
-    const Eigen::Vector2d pixel = project(place);
-    if (!(pixel.cwiseAbs().maxCoeff() < 1e6)) continue;
-    const int side =
-        std::max(1, static_cast<int>(std::lround(project.focal_px * kPoint_m / place.z())));
-    const cv::Rect square(static_cast<int>(std::ceil(pixel.x() - .5 * side)),
-                          static_cast<int>(std::ceil(pixel.y() - .5 * side)), side, side);
-    const cv::Rect seen = square & whole;
-    const Rgb rgb = ColorOf(color, point.color, point.class_id);
-    for (int row = seen.y; row < seen.br().y; ++row) {
-      for (int column = seen.x; column < seen.br().x; ++column) {
-        auto& nearest = nearest_m.at<float>(row, column);
-        if (place.z() >= nearest) continue;
-        nearest = static_cast<float>(place.z());
-        picture.at<cv::Vec3b>(row, column) = {rgb.b, rgb.g, rgb.r};
-      }
-    }
+    const auto projected = project(point.position.cast<double>());
+    if (!projected) continue;
+    const auto side =
+        static_cast<int>(std::lround(project.focal_px() * kPoint_m / projected->depth_m));
+    picture.PaintSquare(*projected, std::max(1, side), ColorOf(color, point.color, point.class_id));
   }
-  return picture;
+  return picture.picture();
 }
 
 cv::Mat DrawVoxels(const VoxelSet& voxels, const Viewpoint& viewpoint, MapColor color) {
@@ -132,7 +167,7 @@ cv::Mat DrawVoxels(const VoxelSet& voxels, const Viewpoint& viewpoint, MapColor 
   }
   std::stable_sort(faces.begin(), faces.end(),
                    [](const Face& a, const Face& b) { return a.distance_m > b.distance_m; });
-  cv::Mat picture(viewpoint.size, CV_8UC3, kBackground);
+  cv::Mat picture = BlankPicture(viewpoint.size);
   for (const Face& face : faces) {
     cv::fillConvexPoly(picture, face.corners.data(), 4, face.color, cv::LINE_AA, kSubpixelBits);
   }
