@@ -68,7 +68,7 @@ DynamicMask FullDynamics::Process(const RgbdFrame& frame, const Segmentation& se
   for (const Instance& instance : segmentation.instances) {
     if (policies_.MayMove(instance.class_id)) result.unmapped.setTo(255, instance.mask);
   }
-  result.static_probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
+  result.static_probability = StaticProbabilityOf(verdict);
   if (verdict.camera_motion.is_measured) {
     result.camera_motion =
         FrameMotion{last_stamp_ns, verdict.camera_motion.last_from_current.Inverse()};
@@ -124,6 +124,19 @@ void FullDynamics::JudgeInstances(const MotionVerdict& verdict, double elapsed_s
                              elapsed_s, options_.instance_motion);
   }
   motions_ = std::move(now);
+}
+
+/// Who stands still still breathes, gestures and leaves: useful, but worth less than furniture.
+cv::Mat FullDynamics::StaticProbabilityOf(const MotionVerdict& verdict) const {
+  cv::Mat probability = judge_.lattice().cells().ToImage(StaticProbability(verdict.belief));
+  const double most = 255 * options_.instance_motion.standing_weight;
+  for (const InstanceTrack& track : tracks_.tracks) {
+    if (MotionOf(track) > 0) continue;
+    cv::Mat at_most;
+    cv::min(probability, most, at_most);
+    at_most.copyTo(probability, track.instance.mask);
+  }
+  return probability;
 }
 
 cv::Mat FullDynamics::MaskOf(const MotionVerdict& verdict, const LatticeFrame& lattice_frame,

@@ -31,6 +31,7 @@ class FullDynamics {
   void JudgeInstances(const MotionVerdict& verdict, double elapsed_s);
   cv::Mat MaskOf(const MotionVerdict& verdict, const LatticeFrame& lattice_frame,
                  const RgbdFrame& frame, const Segmentation& segmentation) const;
+  cv::Mat StaticProbabilityOf(const MotionVerdict& verdict) const;
   double MotionOf(const InstanceTrack& track) const;
 
   DynamicsOptions options_;

@@ -157,8 +157,10 @@ TEST_F(FullDynamicsTest, MaskOverTheWholeImageIsNotBelieved) {
 /// A piece of furniture is taken for a person; evidence of rest counts much.
 class StandingInstance : public testing::Test {
  protected:
+  double MeanWeight() const { return mean_weight_; }
+
   /// Share of it that is masked in the first frame and in the last.
-  std::pair<double, double> Process(DynamicsOptions options) const {
+  std::pair<double, double> Process(DynamicsOptions options) {
     options.instance_motion.static_log_odds_per_s = 40;
     const auto& [sequence, frames] = test::WalkingRecording::Get(0);
     FlowingDynamics dynamics(options, sequence.camera(), ClassPolicies(options, {"person"}));
@@ -170,6 +172,7 @@ class StandingInstance : public testing::Test {
       const double share = ShareSet(result.mask, desk & (frames[i].depth_m > 0));
       if (i == 0) shares.first = share;
       shares.second = share;
+      mean_weight_ = cv::mean(result.static_probability, desk)[0] / 255;
       EXPECT_EQ(ShareSet(result.unmapped, desk), 1) << "what may move is never mapped";
     }
     return shares;
@@ -183,12 +186,22 @@ class StandingInstance : public testing::Test {
     }
     return largest;
   }
+
+  double mean_weight_ = 0;  // of its pixels in the last frame, 0 to 1
 };
 
 TEST_F(StandingInstance, ServesAsStaticStructureAfterAWhile) {
   const auto [first, last] = Process({});
   EXPECT_GT(first, 0.7);
   EXPECT_LT(last, 0.2);
+  EXPECT_LT(MeanWeight(), 0.5) << "who stands still is worth less than furniture";
+}
+
+TEST_F(StandingInstance, CountsAsMuchAsFurnitureIfWanted) {
+  DynamicsOptions options;
+  options.instance_motion.standing_weight = 1;
+  Process(options);
+  EXPECT_GT(MeanWeight(), 0.8);
 }
 
 TEST_F(StandingInstance, OfAClassThatAlwaysMovesStaysMasked) {

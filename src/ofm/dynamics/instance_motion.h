@@ -17,6 +17,7 @@ struct InstanceMotionOptions {
   double static_log_odds_per_s = 3;  ///< taken off per second that shows it standing still
   double limit = 4;                  ///< of the absolute value
   int min_cells = 20;                ///< fewer textured cells say nothing
+  double standing_weight = 0.3;      ///< of what belongs to one that stands still, at most
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -32,6 +33,8 @@ struct InstanceMotionOptions {
           "taken off per second that shows it standing still", Range{0, 100});
     visit("limit", self.limit, "of the log-odds' absolute value", Range{0, 20});
     visit("min_cells", self.min_cells, "fewer textured cells say nothing", Range{1, 10000});
+    visit("standing_weight", self.standing_weight,
+          "of the features on one that stands still, at most; 1 = as any others", Range{0, 1});
   }
 };
 
