@@ -68,8 +68,8 @@ TEST_F(FrontEndTest, FeaturesHaveTheDepthOfTheirPixel) {
     const float depth_m = prepared.features->depth_m[i];
     if (depth_m == 0) continue;
     ++with_depth;
-    const float there = recording_.images[1].depth_m.at<float>(std::lround(pixel.y()),
-                                                               std::lround(pixel.x()));
+    const float there =
+        recording_.images[1].depth_m.at<float>(std::lround(pixel.y()), std::lround(pixel.x()));
     same += depth_m == there;
     EXPECT_TRUE(depth_m <= there || there == 0) << "at a silhouette the nearer surface counts";
   }
