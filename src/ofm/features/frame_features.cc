@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "ofm/base/check.h"
 
@@ -16,58 +14,10 @@ cv::Point NearestPixel(const cv::Mat& image, const Eigen::Vector2f& place) {
           std::clamp(static_cast<int>(std::lround(place.y())), 0, image.rows - 1)};
 }
 
-bool IsDepth(float depth) { return std::isfinite(depth) && depth > 0; }
-
-/// Pixels over which a key point's corner may be spread: more in the pyramid's smaller images.
-cv::Rect CornerWindow(const cv::Mat& image, const Keypoint& keypoint) {
-  constexpr double kRadius_px = 1.25, kPyramidScale = 1.2;  // found on simulated silhouettes
-  const auto radius =
-      static_cast<int>(std::lround(kRadius_px * std::pow(kPyramidScale, keypoint.octave)));
-  const cv::Point middle = NearestPixel(image, keypoint.pixel);
-  const cv::Rect window(middle - cv::Point(radius, radius),
-                        cv::Size(2 * radius + 1, 2 * radius + 1));
-  return window & cv::Rect({0, 0}, image.size());
-}
-
-/// Least and greatest depth in a window [m]; {0, 0} where there is none.
-std::pair<float, float> DepthRange(const cv::Mat& window) {
-  float least = std::numeric_limits<float>::infinity(), greatest = 0;
-  for (const float depth : cv::Mat_<float>(window)) {
-    if (!IsDepth(depth)) continue;
-    least = std::min(least, depth);
-    greatest = std::max(greatest, depth);
-  }
-  return greatest > 0 ? std::pair(least, greatest) : std::pair(0.0F, 0.0F);
-}
-
-/// Of the pixels of `area` no deeper than `limit_m`, the depth of that nearest to `place` [m].
-float NearestDepth(const cv::Mat& depth_m, const cv::Rect& area, const Eigen::Vector2f& place,
-                   float limit_m) {
-  float least = std::numeric_limits<float>::infinity(), nearest = 0;
-  for (int y = area.y; y < area.br().y; ++y) {
-    for (int x = area.x; x < area.br().x; ++x) {
-      const float depth = depth_m.at<float>(y, x);
-      if (!IsDepth(depth) || depth > limit_m) continue;
-      const float distance = (place - Eigen::Vector2i(x, y).cast<float>()).squaredNorm();
-      if (distance >= least) continue;
-      least = distance;
-      nearest = depth;
-    }
-  }
-  return nearest;
-}
-
-/// Depth of a key point [m]; 0 where there is none. A corner on a silhouette is the nearer thing's
-/// and moves with it: the depth behind it, a pixel away, would make the camera's way too long.
-float DepthOf(const cv::Mat& depth_m, const Keypoint& keypoint) {
-  constexpr float kJump = 1.05F;  // depths of one surface differ by less within a window
-  const cv::Rect window = CornerWindow(depth_m, keypoint);
-  const auto [least, greatest] = DepthRange(depth_m(window));
-  if (greatest > kJump * least) {
-    return NearestDepth(depth_m, window, keypoint.pixel, kJump * least);
-  }
-  const float depth = depth_m.at<float>(NearestPixel(depth_m, keypoint.pixel));
-  return IsDepth(depth) ? depth : 0;
+/// Depth at a pixel [m]; 0 where there is none.
+float DepthAt(const cv::Mat& depth_m, const Eigen::Vector2f& pixel) {
+  const float depth = depth_m.at<float>(NearestPixel(depth_m, pixel));
+  return std::isfinite(depth) && depth > 0 ? depth : 0;
 }
 
 }  // namespace
@@ -98,7 +48,7 @@ std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const 
   frame->depth_m.reserve(frame->size());
   for (const Keypoint& keypoint : frame->keypoints) {
     frame->ideal_px.push_back(camera.Undistort(keypoint.pixel.cast<double>()).cast<float>());
-    frame->depth_m.push_back(DepthOf(depth_m, keypoint));
+    frame->depth_m.push_back(DepthAt(depth_m, keypoint.pixel));
     if (static_probability.empty()) continue;
     const cv::Point pixel = NearestPixel(static_probability, keypoint.pixel);
     frame->static_probability.push_back(static_probability.at<std::uint8_t>(pixel) / 255.0F);
@@ -122,8 +72,7 @@ std::shared_ptr<const FrameFeatures> AlignDepthInTime(
       if (in_depth_camera.z() <= 0) break;
       const Eigen::Vector2d pixel = camera.Project(in_depth_camera);
       if (!camera.IsInImage(pixel)) break;
-      const float measured =
-          DepthOf(depth_m, {.pixel = pixel.cast<float>(), .octave = frame.keypoints[i].octave});
+      const float measured = DepthAt(depth_m, pixel.cast<float>());
       if (measured <= 0) break;
       const Eigen::Vector3d seen = in_depth_camera / in_depth_camera.z() * measured;
       depth = (color_from_depth * seen).z();

@@ -45,8 +45,7 @@ class OctaveScales {
 };
 
 /// Undistorts `features` and reads their depth from `depth_m` (CV_32FC1 [m], 0 = none). Places
-/// without depth get 0; at a silhouette the nearer surface counts. `static_probability` (CV_8UC1,
-/// 255 = surely static) may be empty.
+/// without depth get 0. `static_probability` (CV_8UC1, 255 = surely static) may be empty.
 std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const cv::Mat& depth_m,
                                                        const PinholeCamera& camera,
                                                        const cv::Mat& static_probability = {});

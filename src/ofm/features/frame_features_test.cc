@@ -79,25 +79,14 @@ TEST(FrameFeatures, UndistortsThePixels) {
 
 TEST(FrameFeatures, ReadsDepthAtTheNearestDistortedPixel) {
   cv::Mat depth = PlainDepth(2);
-  depth.at<float>(41, 30) = 2.0625F;
+  depth.at<float>(41, 30) = 3;
   const auto frame =
       MakeFrameFeatures(FeaturesAt({{30.4F, 40.6F}, {29.6F, 41.4F}, {30, 40}}), depth, {});
-  EXPECT_EQ(frame->depth_m, (std::vector<float>{2.0625F, 2.0625F, 2}));
+  EXPECT_EQ(frame->depth_m, (std::vector<float>{3, 3, 2}));
 
   // With distortion the depth image is distorted too.
   const PinholeCamera camera = *FindCameraPreset("tum-fr1");
-  EXPECT_EQ(MakeFrameFeatures(FeaturesAt({{30, 41}}), depth, camera)->depth_m[0], 2.0625F);
-}
-
-TEST(FrameFeatures, CornerOnASilhouetteHasTheNearerSurfacesDepth) {
-  cv::Mat depth = PlainDepth(4);
-  depth.colRange(0, 100).setTo(1.5F);
-  depth.col(99).setTo(1.5625F);  // the nearer surface is slanted: not its least depth counts
-  depth.at<float>(50, 100) = 0;  // nor does the sensor's gap at the edge
-  Features features = FeaturesAt({{99, 20}, {100, 20}, {100, 50}, {102, 20}, {103, 20}});
-  features.keypoints[4].octave = 7;
-  EXPECT_EQ(MakeFrameFeatures(features, depth, {})->depth_m,
-            (std::vector<float>{1.5625F, 1.5625F, 1.5625F, 4, 1.5625F}));
+  EXPECT_EQ(MakeFrameFeatures(FeaturesAt({{30, 41}}), depth, camera)->depth_m[0], 3);
 }
 
 TEST(FrameFeatures, TakesWhatIsNoDepthForNone) {
@@ -112,10 +101,10 @@ TEST(FrameFeatures, TakesWhatIsNoDepthForNone) {
 
 TEST(FrameFeatures, ReadsNoDepthBeyondTheBorder) {
   cv::Mat depth = PlainDepth(2);
-  depth.at<float>(479, 639) = 2.0625F;
-  depth.at<float>(0, 0) = 2.03125F;
+  depth.at<float>(479, 639) = 3;
+  depth.at<float>(0, 0) = 4;
   const auto frame = MakeFrameFeatures(FeaturesAt({{639.7F, 479.9F}, {-0.8F, -3}}), depth, {});
-  EXPECT_EQ(frame->depth_m, (std::vector<float>{2.0625F, 2.03125F}));
+  EXPECT_EQ(frame->depth_m, (std::vector<float>{3, 4}));
 }
 
 TEST(FrameFeatures, ReadsStaticProbabilityAtTheNearestPixel) {

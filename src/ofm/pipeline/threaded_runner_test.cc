@@ -18,7 +18,7 @@ using testing::Key;
 
 /// Above what these small images give (more than the sequential runner's: which frames become key
 /// frames is up to the threads' timing), far below the path's extent.
-constexpr double kMaxAte_m = 0.045, kMaxLiveAte_m = 0.045;
+constexpr double kMaxAte_m = 0.03, kMaxLiveAte_m = 0.03;
 
 double Ate_m(const Trajectory& estimate, const Recording& recording) {
   return ComputeAte(estimate, recording.sequence.GroundTruth()).translation_m.rmse;
