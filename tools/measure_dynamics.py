@@ -8,6 +8,7 @@ Each finished run is kept in --record (JSON lines): a run that is there already 
 interrupted measurement goes on where it ended. Delete both after a change of the program.
 Seeds decide RANSAC's draws alone, which most runs hardly ask for. --vary-features STEP shows how much of a difference
 between two rows is luck: run k of N has 1000 + STEP (k - (N + 1) / 2) features (keep these runs in a --record of theirs).
+The middle run measures the culling too.
 The composed sequences are made by ../shared/tools/compose_dynamic.py (see ../shared/README.md).
 """
 import argparse
@@ -87,10 +88,9 @@ def measure(bench, configuration, seed):
         folder = bench.masks / network / scenario
         arguments += ['--set', f'perception.masks_folder={folder}']
         network_summary = json.loads((folder / 'summary.json').read_text())
-    if bench.vary_features:
-        count = 1000 + bench.vary_features * (seed - (bench.seeds + 1) // 2)
-        arguments += ['--set', f'features.count={count}']
-    elif scenario != STATIC and seed == FIRST_SEED:  # measuring culling takes long and hardly depends on the seed
+    middle_seed = (bench.seeds + 1) // 2
+    arguments += ['--set', f'features.count={1000 + bench.vary_features * (seed - middle_seed)}']
+    if scenario != STATIC and seed == middle_seed:  # measuring culling takes long and hardly depends on the seed
         arguments += ['--true-masks', str(sequence / 'mask')]
     with tempfile.TemporaryDirectory() as output:
         summary = measure_results.run(bench.program, sequence, arguments, seed, pathlib.Path(output))
