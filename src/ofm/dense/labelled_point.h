@@ -25,10 +25,11 @@ struct LabelledPoint {
   Rgb color;
   std::uint8_t class_id = kNoLabel;
   std::uint8_t confidence = 0;  ///< of class_id, 255 = sure
-  float precision = 1e6F;       ///< 1 / variance of its depth [1/m^2]
   /// In a key frame's cloud a number within the frame, in a map's the id of the object in
   /// objects.db; kNoInstance = none.
   std::uint16_t instance = kNoInstance;
+  float precision = 1e6F;  ///< 1 / variance of its depth [1/m^2]
 };
+static_assert(sizeof(LabelledPoint) == 24, "a key frame keeps some ten thousand of them");
 
 }  // namespace ofm

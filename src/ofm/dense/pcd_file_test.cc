@@ -11,7 +11,7 @@
 namespace ofm {
 namespace {
 
-const std::vector<LabelledPoint> kCloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 1e6f, 300},
+const std::vector<LabelledPoint> kCloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 300},
                                         {{-7, 8, 9}, {255, 0, 128}, kNoLabel, 0}};
 
 std::string Write(const std::vector<LabelledPoint>& cloud, MapColor color = MapColor::kAppearance) {

@@ -33,7 +33,7 @@ TEST(WritePly, TheHeaderNamesFieldsAndClasses) {
 }
 
 TEST(WritePly, PointsReadBackByteForByte) {
-  const std::vector<LabelledPoint> cloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 1e6f, 300},
+  const std::vector<LabelledPoint> cloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 300},
                                          {{-7, 8, 9}, {255, 0, 128}, kNoLabel, 0}};
   const std::string file = Write(cloud);
   const std::string end = "end_header\n";
@@ -63,7 +63,7 @@ TEST(WritePly, ColorsCanShowLabels) {
 
 TEST(LoadPly, ReadsWhatWasWritten) {
   const TestFolder folder;
-  const std::vector<LabelledPoint> cloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 1e6f, 300},
+  const std::vector<LabelledPoint> cloud{{{1.5f, -2.25f, 1e-3f}, {1, 2, 253}, 56, 200, 300},
                                          {{-7, 8, 9}, {255, 0, 128}, kNoLabel, 0}};
   EXPECT_TRUE(LoadPly(folder.Write("empty.ply", Write({}))).empty());
   const std::vector<LabelledPoint> loaded = LoadPly(folder.Write("map.ply", Write(cloud)));

@@ -161,7 +161,7 @@ TEST(SemanticOctree, LabelsOfUncertainDepthCountLess) {
   const auto fused = [](float precision) {
     SemanticOctree octree(kResolution_m, {});
     octree.InsertScan({kOrigin, {{kEnd, {}, 3, 128}}, {}});
-    octree.InsertScan({kOrigin, {{kEnd, {}, 5, 230, precision}}, {}});
+    octree.InsertScan({kOrigin, {{kEnd, {}, 5, 230, kNoInstance, precision}}, {}});
     return octree.Find(kEnd)->class_id;
   };
   EXPECT_EQ(fused(1e6f), 5);

@@ -33,8 +33,8 @@ LabelledPoint BasicVoxelFilter<Labels, Weight>::Sum::Point() const {
           {mean(0), mean(1), mean(2)},
           labels.Best(),
           labels.Confidence(),
-          static_cast<float>(precision / count),
-          labels.Best() == kNoLabel ? kNoInstance : instances.Best()};
+          labels.Best() == kNoLabel ? kNoInstance : instances.Best(),
+          static_cast<float>(precision / count)};
 }
 
 template <class Labels, class Weight>

@@ -21,8 +21,8 @@ TEST(VoxelFilter, PointsOfAVoxelBecomeTheirMean) {
 
 TEST(VoxelFilter, PreciseDepthCountsMore) {
   VoxelFilter filter(.1);
-  filter.Add({{.01f, 0, .02f}, {}, 5, 200, 3e4f});
-  filter.Add({{.05f, 0, .06f}, {}, 5, 200, 1e4f});
+  filter.Add({{.01f, 0, .02f}, {}, 5, 200, kNoInstance, 3e4f});
+  filter.Add({{.05f, 0, .06f}, {}, 5, 200, kNoInstance, 1e4f});
   const auto points = filter.Points();
   ASSERT_EQ(points.size(), 1u);
   EXPECT_TRUE(points[0].position.isApprox(Eigen::Vector3f(.02f, 0, .03f)));
@@ -31,8 +31,8 @@ TEST(VoxelFilter, PreciseDepthCountsMore) {
 
 TEST(VoxelFilter, VoxelsKnowWhereTheyWereSeenFromAndHowSurelyAllInAll) {
   ViewVoxelFilter filter(.1);
-  filter.Add({{.01f, 0, .02f}, {}, 5, 200, 3e4f}, {4, 0, 0});
-  filter.Add({{.05f, 0, .06f}, {}, 5, 200, 1e4f}, {0, 0, 8});
+  filter.Add({{.01f, 0, .02f}, {}, 5, 200, kNoInstance, 3e4f}, {4, 0, 0});
+  filter.Add({{.05f, 0, .06f}, {}, 5, 200, kNoInstance, 1e4f}, {0, 0, 8});
   const auto voxels = filter.Voxels();
   ASSERT_EQ(voxels.size(), 1u);
   EXPECT_TRUE(voxels[0].viewpoint.isApprox(Eigen::Vector3f(3, 0, 2)));
@@ -56,9 +56,9 @@ TEST(VoxelFilter, TheLabelOfOneViewIsVotedAndOfManyViewsBelieved) {
 TEST(VoxelFilter, TheInstanceOfMostPointsIsKeptWhereThereIsALabel) {
   VoxelFilter filter(.1);
   for (const std::uint16_t instance : {9, 2, 2, 9, 2}) {
-    filter.Add({{.01f, 0, 0}, {}, 5, 200, 1e6f, instance});
+    filter.Add({{.01f, 0, 0}, {}, 5, 200, instance});
   }
-  filter.Add({{.11f, 0, 0}, {}, 5, 10, 1e6f, 4});
+  filter.Add({{.11f, 0, 0}, {}, 5, 10, 4});
   filter.Add({{.11f, 0, 0}, {}, kNoLabel, 128});
   const auto points = filter.Points();
   ASSERT_EQ(points.size(), 2u);
