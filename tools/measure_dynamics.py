@@ -8,7 +8,7 @@ Each finished run is kept in --record (JSON lines): a run that is there already 
 interrupted measurement goes on where it ended. Delete both after a change of the program.
 Seeds decide RANSAC's draws alone, which most runs hardly ask for. --vary-features STEP shows how much of a difference
 between two rows is luck: run k of N has 1000 + STEP (k - (N + 1) / 2) features (keep these runs in a --record of theirs).
-The middle run measures the culling too.
+The run in the middle measures the culling too.
 The composed sequences are made by ../shared/tools/compose_dynamic.py (see ../shared/README.md).
 """
 import argparse
@@ -89,7 +89,9 @@ def measure(bench, configuration, seed):
         arguments += ['--set', f'perception.masks_folder={folder}']
         network_summary = json.loads((folder / 'summary.json').read_text())
     middle_seed = (bench.seeds + 1) // 2
-    arguments += ['--set', f'features.count={1000 + bench.vary_features * (seed - middle_seed)}']
+    if bench.vary_features:
+        count = 1000 + bench.vary_features * (seed - middle_seed)
+        arguments += ['--set', f'features.count={count}']
     if scenario != STATIC and seed == middle_seed:  # measuring culling takes long and hardly depends on the seed
         arguments += ['--true-masks', str(sequence / 'mask')]
     with tempfile.TemporaryDirectory() as output:
@@ -119,7 +121,7 @@ def print_table(runs):
         groups.setdefault((run['scenario'], run['mode'], run['segmenter']), []).append(run)
     base = [r['ate_cm'] for r in groups.get((STATIC, 'full', 'none'), [])]
     static_cm = statistics.median(base) if base else None
-    print('| scenario | mode | segmenter | seeds | ATE rmse [cm], median [min–max] | / static | coverage, worst '
+    print('| scenario | mode | segmenter | runs | ATE rmse [cm], median [min–max] | / static | coverage, worst '
           '| actor features in the pose | static features kept | culling + features + tracking [ms CPU] '
           '| segmentation [ms CPU] | process [ms CPU per frame] |')
     print('|' + '---|' * 12)
