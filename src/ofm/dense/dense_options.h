@@ -15,8 +15,10 @@ struct KeyframeCloudOptions {
   int min_measured_pixels = 6;        ///< of the 3 x 3 around a pixel, itself included
   int view_stride = 1;                ///< frames from one view of a cloud to the next; 0 = none
   int mask_dilation_px = 4;           ///< dropped around what moves, whatever its depth
-  int mask_margin_px = 16;            ///< dropped around what moves where the depth is alike
+  int mask_margin_px = 8;             ///< dropped around what moves where the depth is alike
   double mask_margin_depth_m = 0.2;   ///< how alike
+  double max_piece_share = .12;       ///< of the image; larger pieces of surface are never loose
+  double max_looseness = .4;          ///< pieces above it are not mapped
   double unlabelled_confidence = .5;  ///< what "no label" counts, as a label's confidence
 
   template <class Self, class Visitor>
@@ -35,6 +37,14 @@ struct KeyframeCloudOptions {
           "pixels dropped around what moves where their depth is alike", Range{0, 100});
     visit("mask_margin_depth_m", self.mask_margin_depth_m,
           "depth difference that counts as alike [m]", Range{0, 10});
+    visit("max_piece_share", self.max_piece_share,
+          "larger pieces of surface are mapped whatever speaks against them [share of the image]",
+          Range{0, 1});
+    visit(
+        "max_looseness", self.max_looseness,
+        "small pieces of surface that other frames look through, or that masks or the image's "
+        "border cut off, are not mapped above this; lower is cleaner and less complete, 2 maps all",
+        Range{-2, 2});
     visit("unlabelled_confidence", self.unlabelled_confidence,
           "a pixel without label counts like a label of this confidence", Range{0, 1});
   }

@@ -1,9 +1,11 @@
 #include "ofm/dense/keyframe_cloud.h"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "ofm/base/check.h"
 #include "ofm/camera/depth_noise.h"
+#include "ofm/dense/loose_pieces.h"
 #include "ofm/dense/usable_pixels.h"
 #include "ofm/dense/voxel_filter.h"
 
@@ -39,6 +41,12 @@ KeyframeCloudOptions Coarsened(KeyframeCloudOptions options, int step) {
   options.mask_dilation_px = (options.mask_dilation_px + step - 1) / step;
   options.mask_margin_px = (options.mask_margin_px + step - 1) / step;
   return options;
+}
+
+cv::Mat Resized(const cv::Mat& image, cv::Size size) {
+  cv::Mat resized;
+  cv::resize(image, resized, size, 0, 0, cv::INTER_NEAREST);
+  return resized;
 }
 
 template <class T>
@@ -100,9 +108,35 @@ struct KeyframeCloudMaker::Gathered {
   VoxelFilter near, far;  // within the range, and the ends of rays that go beyond
 };
 
-void KeyframeCloudMaker::Gather(const LabelledFrame& frame, Gathered& gathered) const {
+/// For each frame CV_8UC1 of its size, 255 where a pixel is mapped.
+std::vector<cv::Mat> KeyframeCloudMaker::FindUsable(std::span<const LabelledFrame> frames) const {
+  std::vector<cv::Mat> usable;
+  std::vector<PieceView> pieces;
+  cv::Size size = frames[0].depth_m.size();
+  for (const LabelledFrame& frame : frames) {
+    if (frame.depth_m.cols < size.width) size = frame.depth_m.size();
+  }
+  for (const LabelledFrame& frame : frames) {
+    const KeyframeCloudOptions options = Coarsened(options_.cloud, FindPixelStep(frame, camera_));
+    cv::Mat dynamic = cv::Mat::zeros(frame.depth_m.size(), CV_8UC1);
+    if (!frame.dynamic_mask.empty()) {
+      dynamic = FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options);
+    }
+    usable.push_back(FindSmoothPixels(frame.depth_m, options));
+    usable.back().setTo(0, dynamic);
+    pieces.push_back(
+        {Resized(frame.depth_m, size), Resized(dynamic, size), frame.keyframe_from_depth});
+  }
+  const std::vector<cv::Mat> loose = FindLoosePieces(pieces, camera_, rays_, options_.cloud);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    usable[i].setTo(0, Resized(loose[i], usable[i].size()));
+  }
+  return usable;
+}
+
+void KeyframeCloudMaker::Gather(const LabelledFrame& frame, const cv::Mat& usable,
+                                Gathered& gathered) const {
   const int step = FindPixelStep(frame, camera_);
-  const cv::Mat usable = FindUsablePixels(frame, Coarsened(options_.cloud, step));
   const auto range = static_cast<float>(options_.range_m);
   const auto unlabelled =
       static_cast<std::uint8_t>(std::lround(255 * options_.cloud.unlabelled_confidence));
@@ -134,8 +168,10 @@ void KeyframeCloudMaker::Gather(const LabelledFrame& frame, Gathered& gathered) 
 KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& keyframe,
                                        std::span<const LabelledFrame> views) const {
   Gathered gathered(options_);
-  Gather(keyframe, gathered);
-  for (const LabelledFrame& view : views) Gather(view, gathered);
+  std::vector<LabelledFrame> frames{keyframe};
+  frames.insert(frames.end(), views.begin(), views.end());
+  const std::vector<cv::Mat> usable = FindUsable(frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) Gather(frames[i], usable[i], gathered);
   KeyframeCloud cloud{gathered.near.Points(), {}};
   for (const LabelledPoint& end : gathered.far.Points()) {
     cloud.free_ends_in_camera.push_back(end.position);

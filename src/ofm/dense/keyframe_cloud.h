@@ -38,15 +38,16 @@ class KeyframeCloudMaker {
   /// Throws Error where an option is out of its range.
   KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options);
 
-  /// Back-projects the usable pixels (see usable_pixels.h), lens distortion undone, and keeps one
-  /// point per voxel of CloudResolution(). `views` are frames from nearby, for what the key frame
-  /// does not show.
+  /// Back-projects the usable pixels (usable_pixels.h) but loose pieces (loose_pieces.h), lens
+  /// distortion undone, and keeps one point per voxel of CloudResolution(). `views` are frames from
+  /// nearby, for what the key frame does not show and to tell what moves in it.
   KeyframeCloud Make(const LabelledFrame& keyframe,
                      std::span<const LabelledFrame> views = {}) const;
 
  private:
   struct Gathered;
-  void Gather(const LabelledFrame& frame, Gathered& gathered) const;
+  std::vector<cv::Mat> FindUsable(std::span<const LabelledFrame> frames) const;
+  void Gather(const LabelledFrame& frame, const cv::Mat& usable, Gathered& gathered) const;
 
   PinholeCamera camera_;
   DenseOptions options_;

@@ -126,6 +126,31 @@ TEST(KeyframeCloud, ViewsAddWhatIsHiddenInTheKeyframe) {
   }
 }
 
+/// Frames of a camera at rest, each half a second after the last; the first is a key frame.
+KeyframeCloud CloudOfThree(double speed_mps) {
+  std::vector<LabelledFrame> frames;
+  for (int i = 0; i < 3; ++i) {
+    const double x = -.6 + .5 * i * speed_mps;  // in no mask
+    const test::Box thing{{x - .06, -.1, 1.52}, {x + .06, .1, 1.53}, {10, 200, 10}};
+    frames.push_back(Render(SmallCamera(), {Wall(), Chair(), thing}, {}, KeyframeId(0)));
+    if (i > 0) frames.back() = Coarse(frames.back());
+  }
+  const std::span all(frames);
+  return KeyframeCloudMaker(SmallCamera(), {}).Make(all[0], all.subspan(1));
+}
+
+TEST(KeyframeCloud, WhatMovesBetweenTheViewsIsLeftOutWithoutAMaskAndWhatRestsIsNot) {
+  const auto count = [](const KeyframeCloud& cloud, double near_m, double far_m) {
+    return std::ranges::count_if(cloud.points_in_camera, [&](const LabelledPoint& point) {
+      return point.position.z() > near_m && point.position.z() < far_m;
+    });
+  };
+  const KeyframeCloud moving = CloudOfThree(.5), resting = CloudOfThree(0);
+  EXPECT_EQ(count(moving, 1.4, 1.6), 0);
+  EXPECT_GT(count(resting, 1.4, 1.6), 20);
+  EXPECT_EQ(count(moving, 1.9, 2.1), count(resting, 1.9, 2.1));  // the chair
+}
+
 TEST(KeyframeCloud, LiesWhereTheCameraWasWhenItsDepthWasTaken) {
   const RigidTransform color_from_depth = test::At(.03, 0, .05);
   LabelledFrame frame = Render(SmallCamera(), {Wall(), Chair()}, color_from_depth, KeyframeId(0));
