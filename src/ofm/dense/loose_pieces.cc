@@ -132,9 +132,8 @@ void AddSightings(const SurfacePiece& piece, const PieceView& view, const PieceV
 }
 
 /// How much speaks for a piece's being part of what moves; the larger it is the more must speak, as
-/// the room lacks more where that is wrong.
-/// With these weights it tells people's pieces from the room's about as well as a logistic
-/// regression over all that is known of them (docs/results.md).
+/// the room lacks more where that is wrong. With these weights it tells people's pieces from the
+/// room's about as well as a logistic regression over 17 figures of a piece (docs/results.md).
 double Looseness(const SurfacePiece& piece, const Sightings& sightings, std::size_t image_px) {
   constexpr double kPrior = 60;  // sightings, half of them of something moving
   constexpr double kCutWeight = .5, kSizeWeight = .15, kSmallShare = 1.3e-3;
