@@ -44,6 +44,7 @@ KeyframeCloudOptions Coarsened(KeyframeCloudOptions options, int step) {
 }
 
 cv::Mat Resized(const cv::Mat& image, cv::Size size) {
+  if (image.size() == size) return image;
   cv::Mat resized;
   cv::resize(image, resized, size, 0, 0, cv::INTER_NEAREST);
   return resized;
@@ -112,16 +113,10 @@ struct KeyframeCloudMaker::Gathered {
 std::vector<cv::Mat> KeyframeCloudMaker::FindUsable(std::span<const LabelledFrame> frames) const {
   std::vector<cv::Mat> usable;
   std::vector<PieceView> pieces;
-  cv::Size size = frames[0].depth_m.size();
-  for (const LabelledFrame& frame : frames) {
-    if (frame.depth_m.cols < size.width) size = frame.depth_m.size();
-  }
+  const cv::Size size = frames.back().depth_m.size();  // of the views, if there are any
   for (const LabelledFrame& frame : frames) {
     const KeyframeCloudOptions options = Coarsened(options_.cloud, FindPixelStep(frame, camera_));
-    cv::Mat dynamic = cv::Mat::zeros(frame.depth_m.size(), CV_8UC1);
-    if (!frame.dynamic_mask.empty()) {
-      dynamic = FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options);
-    }
+    const cv::Mat dynamic = FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options);
     usable.push_back(FindSmoothPixels(frame.depth_m, options));
     usable.back().setTo(0, dynamic);
     pieces.push_back(

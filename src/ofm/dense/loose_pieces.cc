@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
-#include "ofm/base/check.h"
 #include "ofm/camera/depth_noise.h"
+#include "ofm/camera/depth_regions.h"
 
 namespace ofm {
 namespace {
@@ -24,74 +25,44 @@ float DepthAt(const PieceView& view, cv::Point pixel) {
   return view.depth_m.ptr<float>(pixel.y)[pixel.x];
 }
 
-/// Grows the pieces of one view.
-class PieceGrower {
- public:
-  PieceGrower(const PieceView& view, const KeyframeCloudOptions& options)
-      : view_(view), options_(options), open_((view.depth_m > 0) & (view.dynamic == 0)) {}
+/// No depth edge lies between them.
+bool IsSmooth(float here_m, float there_m, const KeyframeCloudOptions& options) {
+  return std::abs(there_m - here_m) <= options.edge_sigmas * DepthSigma(std::min(here_m, there_m));
+}
 
-  std::vector<SurfacePiece> Grow() {
-    std::vector<SurfacePiece> pieces;
-    for (int y = 0; y < open_.rows; ++y) {
-      for (int x = 0; x < open_.cols; ++x) {
-        if (open_.ptr<std::uint8_t>(y)[x] == 0) continue;
-        SurfacePiece piece = GrowFrom({x, y});
-        if (!IsTooLarge(piece)) pieces.push_back(std::move(piece));
-      }
+/// Whether the pixel `other` beside a piece's `pixel` is of the piece too.
+bool IsSameSurface(const PieceView& view, cv::Point pixel, cv::Point other,
+                   const KeyframeCloudOptions& options) {
+  if (!IsInside(view.depth_m, other) || IsMasked(view, other)) return false;
+  return DepthAt(view, other) > 0 && IsSmooth(DepthAt(view, pixel), DepthAt(view, other), options);
+}
+
+/// Whether a surface goes on beyond its outline at `pixel`, for all that can be told.
+bool IsCut(const PieceView& view, cv::Point pixel, cv::Point side,
+           const KeyframeCloudOptions& options) {
+  const int reach = view.depth_m.cols / 8;  // across a structured-light camera's shadow
+  cv::Point beyond = pixel + side;
+  for (int i = 0; i < reach && IsInside(view.depth_m, beyond) && !(DepthAt(view, beyond) > 0);
+       ++i) {
+    beyond += side;
+  }
+  if (!IsInside(view.depth_m, beyond)) return true;
+  return IsMasked(view, beyond) &&
+         std::abs(DepthAt(view, beyond) - DepthAt(view, pixel)) <= options.mask_margin_depth_m;
+}
+
+double CutShare(const std::vector<cv::Point>& pixels, const PieceView& view,
+                const KeyframeCloudOptions& options) {
+  int cut = 0, outline = 0;
+  for (const cv::Point pixel : pixels) {
+    for (const cv::Point side : kSides) {
+      if (IsSameSurface(view, pixel, pixel + side, options)) continue;
+      ++outline;
+      cut += IsCut(view, pixel, side, options) ? 1 : 0;
     }
-    return pieces;
   }
-
- private:
-  SurfacePiece GrowFrom(cv::Point seed) {
-    SurfacePiece piece{{seed}, 0};
-    open_.at<std::uint8_t>(seed) = 0;
-    int cut = 0, outline = 0;
-    for (std::size_t next = 0; next < piece.pixels.size(); ++next) {
-      const cv::Point pixel = piece.pixels[next];
-      for (const cv::Point side : kSides) {
-        if (IsSameSurface(pixel, pixel + side)) {
-          std::uint8_t& open = open_.at<std::uint8_t>(pixel + side);
-          if (open != 0) piece.pixels.push_back(pixel + side);
-          open = 0;
-        } else if (!IsTooLarge(piece)) {
-          ++outline;
-          cut += IsCut(pixel, side) ? 1 : 0;
-        }
-      }
-    }
-    piece.cut_share = outline == 0 ? 0 : static_cast<double>(cut) / outline;
-    return piece;
-  }
-
-  bool IsTooLarge(const SurfacePiece& piece) const {
-    return static_cast<double>(piece.pixels.size()) >
-           options_.max_piece_share * static_cast<double>(open_.total());
-  }
-
-  bool IsSameSurface(cv::Point pixel, cv::Point other) const {
-    if (!IsInside(open_, other) || IsMasked(view_, other)) return false;
-    const float here_m = DepthAt(view_, pixel), there_m = DepthAt(view_, other);
-    return there_m > 0 && std::abs(there_m - here_m) <=
-                              options_.edge_sigmas * DepthSigma(std::min(here_m, there_m));
-  }
-
-  /// Whether a surface goes on beyond its outline at `pixel`, for all that can be told.
-  bool IsCut(cv::Point pixel, cv::Point side) const {
-    const int kReach = view_.depth_m.cols / 8;  // across a structured-light camera's shadow
-    cv::Point beyond = pixel + side;
-    for (int i = 0; i < kReach && IsInside(open_, beyond) && !(DepthAt(view_, beyond) > 0); ++i) {
-      beyond += side;
-    }
-    if (!IsInside(open_, beyond)) return true;
-    return IsMasked(view_, beyond) &&
-           std::abs(DepthAt(view_, beyond) - DepthAt(view_, pixel)) <= options_.mask_margin_depth_m;
-  }
-
-  const PieceView& view_;
-  const KeyframeCloudOptions& options_;
-  cv::Mat open_;  // 255 where no piece has been yet
-};
+  return outline == 0 ? 0 : static_cast<double>(cut) / outline;
+}
 
 /// What other views show at the places of a piece's pixels, in pixels.
 struct Sightings {
@@ -103,10 +74,10 @@ struct Sightings {
 void AddSightings(const SurfacePiece& piece, const PieceView& view, const PieceView& other,
                   const PinholeCamera& camera, std::span<const Eigen::Vector2f> rays,
                   Sightings& sightings) {
-  constexpr std::size_t kMaxSamples = 64;
+  constexpr std::size_t kSamples = 64;  // at least, where the piece has so many
   constexpr float kThrough_m = .06F, kThroughSigmas = 4, kAlike_m = .1F;
   const int step = camera.width / view.depth_m.cols;
-  const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / kMaxSamples);
+  const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / kSamples);
   const RigidTransform other_from_view =
       other.reference_from_view.Inverse() * view.reference_from_view;
   for (std::size_t i = 0; i < piece.pixels.size(); i += stride) {
@@ -147,9 +118,16 @@ double Looseness(const SurfacePiece& piece, const Sightings& sightings, std::siz
 
 std::vector<SurfacePiece> FindSurfacePieces(const PieceView& view,
                                             const KeyframeCloudOptions& options) {
-  OFM_CHECK(view.depth_m.type() == CV_32FC1 && view.dynamic.type() == CV_8UC1);
-  OFM_CHECK(view.depth_m.size() == view.dynamic.size());
-  return PieceGrower(view, options).Grow();
+  const double most_px = options.max_piece_share * static_cast<double>(view.depth_m.total());
+  std::vector<SurfacePiece> pieces;
+  for (DepthRegion& region : FindDepthRegionsIf(
+           view.dynamic == 0, view.depth_m,
+           [&](float here_m, float there_m) { return IsSmooth(here_m, there_m, options); })) {
+    if (static_cast<double>(region.pixels.size()) > most_px) continue;
+    const double cut_share = CutShare(region.pixels, view, options);
+    pieces.push_back({std::move(region.pixels), cut_share});
+  }
+  return pieces;
 }
 
 std::vector<cv::Mat> FindLoosePieces(std::span<const PieceView> views, const PinholeCamera& camera,

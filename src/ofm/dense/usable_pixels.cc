@@ -57,6 +57,7 @@ cv::Mat FindSmoothPixels(const cv::Mat& depth_m, const KeyframeCloudOptions& opt
 
 cv::Mat FindDynamicPixels(const cv::Mat& mask, const cv::Mat& depth_m,
                           const KeyframeCloudOptions& options) {
+  if (mask.empty()) return cv::Mat::zeros(depth_m.size(), CV_8UC1);
   cv::Mat dynamic;
   const int radius = options.mask_dilation_px;
   cv::dilate(mask, dynamic,
@@ -75,9 +76,7 @@ cv::Mat FindDynamicPixels(const cv::Mat& mask, const cv::Mat& depth_m,
 
 cv::Mat FindUsablePixels(const LabelledFrame& frame, const KeyframeCloudOptions& options) {
   cv::Mat usable = FindSmoothPixels(frame.depth_m, options);
-  if (!frame.dynamic_mask.empty()) {
-    usable.setTo(0, FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options));
-  }
+  usable.setTo(0, FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options));
   return usable;
 }
 

@@ -14,7 +14,8 @@ namespace ofm {
 cv::Mat FindSmoothPixels(const cv::Mat& depth_m, const KeyframeCloudOptions& options);
 
 /// CV_8UC1, 255 where a pixel moves or may belong to what moves: the mask dilated, and in a wider
-/// margin all pixels whose depth is that of the masked surface nearby. `mask` is not empty.
+/// margin all pixels whose depth is that of the masked surface nearby. With an empty mask none
+/// does.
 cv::Mat FindDynamicPixels(const cv::Mat& mask, const cv::Mat& depth_m,
                           const KeyframeCloudOptions& options);
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ofm/base/check.h"
-#include "ofm/dynamics/depth_regions.h"
+#include "ofm/camera/depth_regions.h"
 #include "ofm/perception/depth_range.h"
 #include "ofm/perception/mask_growth.h"
 #include "ofm/perception/mask_parts.h"

@@ -1,4 +1,4 @@
-#include "ofm/dynamics/depth_regions.h"
+#include "ofm/camera/depth_regions.h"
 
 #include <gtest/gtest.h>
 
