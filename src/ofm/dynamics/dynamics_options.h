@@ -61,10 +61,10 @@ struct DynamicsOptions {
   std::vector<std::string> never_dynamic = {};   ///< standing still whatever seems to move
   int dilation_px = 7;                           ///< radius by which masks grow, mode `paper`
   double exclusion_radius_px = 10;               ///< around a point found moving, mode `paper`
+  EpipolarOptions epipolar = {};                 ///< of mode `paper`
   double crowded_share = 0.15;    ///< of the image masked, from which more features are taken
-  double crowded_features = 1.5;  ///< times as many
-  EpipolarOptions epipolar = {};  ///< of mode `paper`
-  MotionOptions motion = {};      ///< these four: of mode `full`
+  double crowded_features = 1.5;  ///< times as many; from here on: of mode `full`
+  MotionOptions motion = {};
   MaskRefinementOptions refinement = {};
   InstanceTrackerOptions tracker = {};
   InstanceMotionOptions instance_motion = {};
@@ -81,7 +81,7 @@ struct DynamicsOptions {
     visit("exclusion_radius_px", self.exclusion_radius_px,
           "radius masked around a point found moving, mode paper [px]", Range{0, 100});
     visit("crowded_share", self.crowded_share,
-          "masked share of the image from which more features are taken", Range{0, 1});
+          "masked share of the image from which more features are taken, mode full", Range{0, 1});
     visit("crowded_features", self.crowded_features, "times as many features there", Range{1, 5});
     visit("epipolar", self.epipolar, "motion by epipolar geometry, mode paper");
     visit("motion", self.motion, "motion by flow and depth, mode full");

@@ -7,6 +7,7 @@
 #include "ofm/base/check.h"
 #include "ofm/features/brief_pattern.h"
 #include "ofm/features/even_distribution.h"
+#include "ofm/features/exclusion.h"
 #include "ofm/features/fast_corners.h"
 #include "ofm/features/image_pyramid.h"
 #include "ofm/features/orb_kernels.h"
@@ -41,13 +42,6 @@ std::uint16_t HarrisScore(const StructureTensor& tensor) {
   const double root = std::sqrt(std::max(measure, 0.0)) / (kPixels * kSobelGain);
   return static_cast<std::uint16_t>(
       std::min<double>(std::lround(kResponseSteps * std::sqrt(root)), kMaxCornerScore));
-}
-
-bool IsExcluded(const cv::Mat& excluded, const Eigen::Vector2f& pixel) {
-  if (excluded.empty()) return false;
-  const int x = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, excluded.cols - 1);
-  const int y = std::clamp(static_cast<int>(std::lround(pixel.y())), 0, excluded.rows - 1);
-  return excluded.ptr(y)[x] != 0;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ofm/features/exclusion.h"
+
 namespace ofm {
 namespace {
 
@@ -59,14 +61,27 @@ PreparedFrame FrontEnd::Perceive(FlowedFrame flowed, StageTimes& times) {
     prepared.dynamic = dynamics_.Process({prepared.frame, prepared.segmentation, flow, step});
   }
   ScopedStageTimer timer(times, "features");
-  OrbExtractor& extractor =
-      prepared.dynamic.masked_share > crowded_share_ ? crowded_extractor_ : extractor_;
-  Features features = extractor.Extract(prepared.frame.gray, prepared.dynamic.mask);
-  last_points_.clear();
-  for (const Keypoint& keypoint : features.keypoints) last_points_.push_back(keypoint.pixel);
+  Features features = Extract(prepared);
   prepared.features = MakeFrameFeatures(std::move(features), prepared.frame.depth_m, camera_,
                                         prepared.dynamic.static_probability);
   return prepared;
+}
+
+/// The paper takes key points as if nothing moved and drops those that do; its optical flow starts
+/// from all of them. Mode `full` takes as many as it wants from what stands still.
+Features FrontEnd::Extract(const PreparedFrame& prepared) {
+  const cv::Mat& gray = prepared.frame.gray;
+  const DynamicMask& dynamic = prepared.dynamic;
+  if (mode_ != DynamicsMode::kPaper) {
+    OrbExtractor& extractor =
+        dynamic.masked_share > crowded_share_ ? crowded_extractor_ : extractor_;
+    return extractor.Extract(gray, dynamic.mask);
+  }
+  Features features = extractor_.Extract(gray);
+  last_points_.clear();
+  for (const Keypoint& keypoint : features.keypoints) last_points_.push_back(keypoint.pixel);
+  EraseExcluded(dynamic.mask, features);
+  return features;
 }
 
 }  // namespace ofm

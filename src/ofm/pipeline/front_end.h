@@ -45,6 +45,8 @@ class FrontEnd {
   SegmentationStatistics segmentation_statistics() const { return segmentation_.statistics(); }
 
  private:
+  Features Extract(const PreparedFrame& prepared);
+
   PinholeCamera camera_;
   DynamicsMode mode_;
   OpticalFlow point_flow_;    // mode paper
@@ -53,7 +55,7 @@ class FrontEnd {
   DynamicsStage dynamics_;
   OrbExtractor extractor_, crowded_extractor_;
   double crowded_share_;
-  std::vector<Eigen::Vector2f> last_points_;  // key points of the last frame [px]
+  std::vector<Eigen::Vector2f> last_points_;  // mode paper: all of the last frame's [px]
 };
 
 }  // namespace ofm

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ofm/features/exclusion.h"
 #include "ofm/pipeline/test_support.h"
 
 namespace ofm {
@@ -132,11 +133,11 @@ TEST_F(FrontEndTest, FeaturesHaveTheStaticProbabilityOfTheirPixel) {
   }
 }
 
-TEST_F(FrontEndTest, TakesMoreFeaturesWhereMuchIsMasked) {
-  const auto count = [&](double crowded_share) {
+TEST_F(FrontEndTest, FullTakesMoreFeaturesWhereMuchIsMaskedAndThePaperDoesNot) {
+  const auto count = [&](DynamicsMode mode, double crowded_share) {
     SlamOptions options = test::QuickOptions();
     options.features.count = 150;
-    options.dynamics.mode = DynamicsMode::kPaper;
+    options.dynamics.mode = mode;
     options.dynamics.crowded_share = crowded_share;
     options.dynamics.crowded_features = 2;
     FrontEnd front_end(recording_.sequence.camera(), options,
@@ -146,7 +147,23 @@ TEST_F(FrontEndTest, TakesMoreFeaturesWhereMuchIsMasked) {
     EXPECT_LT(prepared.dynamic.masked_share, 0.95);
     return prepared.features->size();
   };
-  EXPECT_GT(count(0.01), 1.6 * static_cast<double>(count(0.95)));
+  EXPECT_GT(count(DynamicsMode::kFull, 0.01),
+            1.6 * static_cast<double>(count(DynamicsMode::kFull, 0.95)));
+  EXPECT_EQ(count(DynamicsMode::kPaper, 0.01), count(DynamicsMode::kPaper, 0.95));
+}
+
+TEST_F(FrontEndTest, ThePaperTakesFeaturesFromTheWholeImageAndDropsThoseOnPeople) {
+  FrontEnd paper = MakeFrontEnd(DynamicsMode::kPaper), off = MakeFrontEnd(DynamicsMode::kOff);
+  const PreparedFrame culled = paper.Process(recording_.images[0], times_);
+  const PreparedFrame all = off.Process(recording_.images[0], times_);
+  std::vector<Descriptor> outside;
+  for (std::size_t i = 0; i < all.features->size(); ++i) {
+    if (!IsExcluded(culled.dynamic.mask, all.features->keypoints[i].pixel)) {
+      outside.push_back(all.features->descriptors[i]);
+    }
+  }
+  EXPECT_LT(outside.size(), all.features->size());
+  EXPECT_EQ(culled.features->descriptors, outside);
 }
 
 }  // namespace
