@@ -176,6 +176,7 @@ struct DenseOptions {
   double resolution_m = .05;       ///< side of an octree voxel
   double range_m = 5;              ///< farther points only free the space before them
   int cloud_points_per_voxel = 2;  ///< cloud points along a voxel's side
+  int max_spare_clouds = 1000;     ///< held of key frames that the map has let go
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
   OctreeOptions octree;
@@ -196,6 +197,9 @@ struct DenseOptions {
           Range{.1, 50});
     visit("cloud_points_per_voxel", self.cloud_points_per_voxel,
           "points of the cloud along an octree voxel's side", Range{1, 8});
+    visit("max_spare_clouds", self.max_spare_clouds,
+          "clouds held of key frames that the map has let go; over it the oldest go",
+          Range{0, 10000000});
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
     visit("octree", self.octree);

@@ -95,5 +95,73 @@ TEST(KeyframeCulling, ViewsOfFarLandmarksAloneAreNotJudged) {
   EXPECT_EQ(made.map.keyframes().size(), 6U);
 }
 
+TEST(KeyframeBudget, WithinItNothingGoes) {
+  TrueMap made = MakeAlike(16);
+  RemoveKeyframesOverBudget(made.map, KeyframeId(15), made.world.model(), {.max_keyframes = 16});
+  EXPECT_EQ(made.map.keyframes().size(), 16U);
+}
+
+TEST(KeyframeBudget, WhatSharesLandmarksWithTheCurrentKeyframeStays) {
+  TrueMap made = MakeAlike(17);
+  RemoveKeyframesOverBudget(made.map, KeyframeId(16), made.world.model(), {.max_keyframes = 10});
+  EXPECT_EQ(made.map.keyframes().size(), 17U);
+}
+
+/// A way along which each keyframe sees four groups of landmarks, one of them for the first time.
+class KeyframesAlongAWay : public testing::Test {
+ protected:
+  static constexpr int kSeen = 4, kGroup = 20;
+
+  explicit KeyframesAlongAWay(int keyframes = 40) {
+    for (int k = 0; k < keyframes; ++k) {
+      Keyframe keyframe = test::MakePlainKeyframe(kSeen * kGroup);
+      for (int i = 0; i + kGroup < kSeen * kGroup && k > 0; ++i) {
+        keyframe.landmarks[i] = map_.GetKeyframe(KeyframeId(k - 1)).landmarks[i + kGroup];
+      }
+      const KeyframeId id = map_.AddKeyframe(keyframe);
+      for (int i = 0; i < kSeen * kGroup; ++i) {
+        if (!map_.GetKeyframe(id).landmarks[i].valid()) map_.AddLandmark({0, 0, 2}, id, i);
+      }
+    }
+  }
+
+  void KeepTo(int max_keyframes) {
+    RemoveKeyframesOverBudget(map_, map_.latest_keyframe(), model_,
+                              {.max_keyframes = max_keyframes});
+  }
+
+  Map map_{test::TestScales()};
+  MeasurementModel model_ = test::FeatureWorld(test::DefaultWorld()).model();
+};
+
+TEST_F(KeyframesAlongAWay, AreThinnedEvenlyToTheBudgetWithoutLosingAPlace) {
+  const std::size_t landmarks = map_.landmarks().size();
+  KeepTo(16);
+  const std::vector<std::uint32_t> left = Left(map_);
+  ASSERT_EQ(left.size(), 15U) << "a sixteenth fewer";
+  EXPECT_EQ(left.front(), 0U) << "holds the world";
+  for (std::size_t i = 1; i < left.size(); ++i) EXPECT_LE(left[i] - left[i - 1], 4U);
+  EXPECT_EQ(map_.landmarks().size(), landmarks) << "each is still seen";
+  EXPECT_EQ(FindProblem(map_), "");
+}
+
+TEST_F(KeyframesAlongAWay, KeepTheirEndAndThePosesOfWhatIsGone) {
+  KeepTo(16);
+  for (const std::uint32_t id : {36U, 37U, 38U, 39U}) {
+    EXPECT_NE(map_.FindKeyframe(KeyframeId(id)), nullptr) << id;
+  }
+  for (std::uint32_t id = 0; id < 40; ++id) {
+    EXPECT_TRUE(map_.FindKeyframePose(KeyframeId(id)).has_value()) << id;
+  }
+}
+
+TEST_F(KeyframesAlongAWay, StayWhereTheyAloneKnowAPlace) {
+  KeepTo(10);  // needs gaps of four and more
+  const std::vector<std::uint32_t> left = Left(map_);
+  for (std::size_t i = 1; i < left.size(); ++i) {
+    EXPECT_LE(left[i] - left[i - 1], 6U) << "nothing is cut off from the rest on both sides";
+  }
+}
+
 }  // namespace
 }  // namespace ofm

@@ -127,6 +127,7 @@ void Mapper::Refine(std::stop_token stop) {
     AdjustLocally(map_, current, model_, options_, stop);
   }
   RemoveRedundantKeyframes(map_, current, model_, options_);
+  RemoveKeyframesOverBudget(map_, current, model_, options_);
 }
 
 CorrectionReport Mapper::Apply(const MapCorrection& correction) {

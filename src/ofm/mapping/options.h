@@ -15,9 +15,10 @@ struct MappingOptions {
   int max_bundle_keyframes = 20;        ///< free ones in local bundle adjustment
   int max_fixed_keyframes = 30;         ///< fixed ones
   double redundant_share = 0.9;         ///< of a keyframe's landmarks seen by three others: it goes
+  int max_keyframes = 4000;             ///< of the whole map; the most redundant go over it
   int max_hamming = 50;                 ///< bits, when fusing and triangulating
   double min_parallax_deg = 1;          ///< when triangulating
-  BundleOptions bundle;
+  BundleOptions bundle = {};
   BundleOptions final_bundle{10, 20, 1};  ///< over the whole map, at the end
 
   template <class Self, class Visitor>
@@ -38,6 +39,8 @@ struct MappingOptions {
     visit("redundant_share", self.redundant_share,
           "share of landmarks seen by three others that makes a keyframe redundant",
           Range{0, 1.01});
+    visit("max_keyframes", self.max_keyframes,
+          "keyframes held, of some 1 MB each; over it the most redundant go", Range{10, 10000000});
     visit("max_hamming", self.max_hamming, "descriptor distance when fusing [bits]", Range{1, 256});
     visit("min_parallax_deg", self.min_parallax_deg, "parallax when triangulating [deg]",
           Range{0, 90});

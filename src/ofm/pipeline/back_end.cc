@@ -85,8 +85,22 @@ std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
   std::shared_ptr<const MapSnapshot> map = slam_.mapper().Snapshot();
   if (slam_.options().loop.enabled) map = CloseLoops(std::move(map));
   is_whole_ = true;
+  BoundClouds(*map);
   KeepUpOctree(*map);
   return map;
+}
+
+/// What key frames saw that the map let go, others saw too: of these clouds the oldest go, a
+/// quarter of the limit at once, as the octree is rebuilt without them.
+void BackEnd::BoundClouds(const MapSnapshot& map) {
+  const auto limit = static_cast<std::size_t>(slam_.options().dense.max_spare_clouds);
+  std::vector<KeyframeId> spare;
+  for (const auto& [id, cloud] : slam_.semantic_mapper().clouds()) {
+    if (map.keyframes.Find(id) == nullptr) spare.push_back(id);
+  }
+  if (spare.size() <= limit) return;
+  spare.resize(spare.size() - limit + limit / 4);
+  for (const KeyframeId id : spare) slam_.semantic_mapper().RemoveKeyframe(id);
 }
 
 void BackEnd::KeepUpOctree(const MapSnapshot& map) {

@@ -65,6 +65,7 @@ class BackEnd {
   void AdjustAfterLoop();
   KeyframePoseMap KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
   SubmapId ResultSubmap(const MapSnapshot& map) const;
+  void BoundClouds(const MapSnapshot& map);
   void KeepUpOctree(const MapSnapshot& map);
   void FinishMaps(RunOutcome& outcome);
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);

@@ -119,5 +119,33 @@ TEST(OctreeUpkeep, LeavingAllToTheEndGivesTheSameMap) {
   EXPECT_TRUE(maps[0] == maps[1]);
 }
 
+/// Runs with at most `limit` clouds of key frames that the map let go; gives those that are held.
+std::vector<KeyframeId> SpareClouds(const test::Recording& recording, int limit) {
+  SlamOptions options = test::KeyframesOften();
+  options.mapping.redundant_share = .2;  // lets many go
+  options.dense.max_spare_clouds = limit;
+  test::PlaySource source(recording.images);
+  const auto slam = test::MakeSlam(recording, options);
+  const RunOutcome outcome = RunSequential(*slam, source, {});
+  EXPECT_EQ(outcome.error, "");
+  ExpectMapOfTheFinalPoses(*slam, outcome);
+  std::vector<KeyframeId> spare;
+  for (const auto& [id, cloud] : slam->semantic_mapper().clouds()) {
+    if (outcome.map->keyframes.Find(id) == nullptr) spare.push_back(id);
+  }
+  return spare;
+}
+
+TEST(OctreeUpkeep, OfKeyframesThatTheMapLetGoTheNewestCloudsAreHeld) {
+  const test::Recording recording(24);
+  const std::vector<KeyframeId> all = SpareClouds(recording, 1000);
+  const std::vector<KeyframeId> some = SpareClouds(recording, 4);
+  ASSERT_GT(all.size(), 4U);
+  EXPECT_LE(some.size(), 4U);
+  EXPECT_GE(some.size(), 3U) << "a quarter goes at once";
+  EXPECT_EQ(some, std::vector<KeyframeId>(all.end() - some.size(), all.end()));
+  EXPECT_TRUE(SpareClouds(recording, 0).empty());
+}
+
 }  // namespace
 }  // namespace ofm
