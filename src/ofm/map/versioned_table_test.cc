@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "ofm/base/ids.h"
@@ -153,6 +154,54 @@ TEST(VersionedTable, SnapshotsNeverChangeUnderRandomEdits) {
   EXPECT_EQ(Contents(table), expected);
   ASSERT_GT(snapshots.size(), 50U);
   for (std::size_t i = 0; i < snapshots.size(); ++i) EXPECT_EQ(Contents(snapshots[i]), copies[i]);
+}
+
+TEST(VersionedTable, ATableThatGoesOnDoesNotChangeWhatItGoesOnFrom) {
+  Table first;
+  for (int i = 0; i < 3; ++i) {
+    first.Edit(Insert(first, i)).value += 10;
+    first.Snapshot();
+  }
+  const Snapshot snapshot = first.Snapshot();
+  Table second(snapshot);
+  for (int i = 0; i < 5; ++i) {
+    second.Edit(LandmarkId(0)).value = 99;
+    second.Snapshot();
+  }
+  second.Edit(LandmarkId(1)).value = 98;
+  EXPECT_EQ(Contents(snapshot), (std::map<std::uint32_t, int>{{0, 10}, {1, 11}, {2, 12}}));
+  EXPECT_EQ(Contents(second), (std::map<std::uint32_t, int>{{0, 99}, {1, 98}, {2, 12}}));
+  EXPECT_EQ(Insert(second, 5), LandmarkId(3));
+}
+
+/// Counts the objects that exist.
+struct Counted {
+  LandmarkId id;
+  std::shared_ptr<int> token;
+};
+
+TEST(VersionedTable, LetsGoOfWhatIsGoneInTableAndSnapshots) {
+  const auto token = std::make_shared<int>();
+  VersionedTable<LandmarkId, Counted> table;
+  for (int i = 0; i < 100; ++i) table.Insert({{}, token});
+  TableSnapshot<LandmarkId, Counted> snapshot = table.Snapshot();
+  for (std::uint32_t i = 0; i < 99; ++i) table.Erase(LandmarkId(i));
+  EXPECT_EQ(token.use_count(), 1 + 100) << "the snapshot's";
+  snapshot = table.Snapshot();
+  EXPECT_EQ(token.use_count(), 1 + 1);
+  EXPECT_EQ(snapshot.ids_issued(), 100U);
+  EXPECT_EQ(snapshot.Find(LandmarkId(98)), nullptr);
+  EXPECT_NE(snapshot.Find(LandmarkId(99)), nullptr);
+  EXPECT_EQ(table.Insert({{}, token}), LandmarkId(100));
+}
+
+TEST(VersionedTable, GoesOnInAChunkOfWhichAllIsGone) {
+  Table table;
+  for (int i = 0; i < 3; ++i) table.Erase(Insert(table, i));
+  const Snapshot snapshot = table.Snapshot();
+  EXPECT_EQ(Insert(table, 7), LandmarkId(3));
+  EXPECT_EQ(Contents(table), (std::map<std::uint32_t, int>{{3, 7}}));
+  EXPECT_EQ(Contents(snapshot), (std::map<std::uint32_t, int>()));
 }
 
 }  // namespace
