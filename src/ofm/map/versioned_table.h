@@ -21,6 +21,7 @@ struct TableChunk {
 
   std::array<std::shared_ptr<T>, kSize> objects;  ///< null where removed or not issued yet
   std::array<std::uint64_t, kSize> versions{};  ///< of the table when an object was made or copied
+  std::uint64_t version = 0;                    ///< likewise of the chunk itself; 0 = of no table
 
   bool IsEmpty() const {
     return std::all_of(objects.begin(), objects.end(), [](const auto& o) { return o == nullptr; });
@@ -69,9 +70,9 @@ class TableSnapshot {
   template <class, class>
   friend class VersionedTable;
 
-  std::vector<std::shared_ptr<Chunk>> chunks_;  // never changed through here
+  std::vector<std::shared_ptr<Chunk>> chunks_;  // only a table changes them, and those of its own
   std::size_t ids_issued_ = 0;
-  std::uint64_t version_ = 1;  // above that of each object
+  std::uint64_t version_ = 1;  // above that of each chunk and object
 };
 
 /// Owner of objects with ids issued in increasing order. An object that a snapshot shares is copied
@@ -82,31 +83,23 @@ class VersionedTable {
  public:
   VersionedTable() = default;
   /// A table that goes on from `snapshot`, under the same ids.
-  explicit VersionedTable(const TableSnapshot<Id, T>& snapshot)
-      : ids_issued_(snapshot.ids_issued_), version_(snapshot.version_) {
-    slots_.reserve(snapshot.chunks_.size());
-    for (const auto& chunk : snapshot.chunks_) slots_.push_back({chunk, 0});
-    snapshot.ForEach([&](const T&) { ++size_; });
+  explicit VersionedTable(const TableSnapshot<Id, T>& snapshot) : now_(snapshot) {
+    ForEach([&](const T&) { ++size_; });
   }
 
   /// Takes ownership; sets and returns the object's id.
   Id Insert(T object) {
-    const Id id(static_cast<std::uint32_t>(ids_issued_));
+    const Id id(static_cast<std::uint32_t>(now_.ids_issued_++));
     object.id = id;
-    if (id.value % Chunk::kSize == 0) slots_.emplace_back();
+    if (id.value % Chunk::kSize == 0) now_.chunks_.emplace_back();
     Chunk& chunk = OwnChunk(id);
     chunk.objects[id.value % Chunk::kSize] = std::make_shared<T>(std::move(object));
-    chunk.versions[id.value % Chunk::kSize] = version_;
-    ++ids_issued_;
+    chunk.versions[id.value % Chunk::kSize] = now_.version_;
     ++size_;
     return id;
   }
 
-  const T* Find(Id id) const {
-    const std::size_t index = id.value / Chunk::kSize;
-    if (index >= slots_.size() || !slots_[index].chunk) return nullptr;
-    return slots_[index].chunk->objects[id.value % Chunk::kSize].get();
-  }
+  const T* Find(Id id) const { return now_.Find(id); }
   const T& Get(Id id) const {
     const T* object = Find(id);
     OFM_CHECK(object != nullptr);
@@ -118,9 +111,9 @@ class VersionedTable {
     Chunk& chunk = OwnChunk(id);
     std::shared_ptr<T>& object = chunk.objects[id.value % Chunk::kSize];
     std::uint64_t& version = chunk.versions[id.value % Chunk::kSize];
-    if (version != version_) {
+    if (version != now_.version_) {
       object = std::make_shared<T>(*object);
-      version = version_;
+      version = now_.version_;
     }
     return *object;
   }
@@ -129,52 +122,35 @@ class VersionedTable {
     Chunk& chunk = OwnChunk(id);
     chunk.objects[id.value % Chunk::kSize].reset();
     --size_;
-    if (chunk.IsEmpty()) slots_[id.value / Chunk::kSize].chunk.reset();
+    if (chunk.IsEmpty()) now_.chunks_[id.value / Chunk::kSize].reset();
   }
 
   std::size_t size() const { return size_; }
   template <class Visit>
   void ForEach(Visit&& visit) const {
-    for (const Slot& slot : slots_) {
-      if (!slot.chunk) continue;
-      for (const auto& object : slot.chunk->objects) {
-        if (object) visit(static_cast<const T&>(*object));
-      }
-    }
+    now_.ForEach(visit);
   }
 
   TableSnapshot<Id, T> Snapshot() {
-    ++version_;
-    TableSnapshot<Id, T> snapshot;
-    snapshot.chunks_.reserve(slots_.size());
-    for (const Slot& slot : slots_) snapshot.chunks_.push_back(slot.chunk);
-    snapshot.ids_issued_ = ids_issued_;
-    snapshot.version_ = version_;
-    return snapshot;
+    ++now_.version_;
+    return now_;
   }
 
  private:
   using Chunk = TableChunk<T>;
-  struct Slot {
-    std::shared_ptr<Chunk> chunk;
-    std::uint64_t version = 0;  // of the table when the chunk was made or copied
-  };
 
   /// The chunk of an id as one that no snapshot shares.
   Chunk& OwnChunk(Id id) {
-    Slot& slot = slots_[id.value / Chunk::kSize];
-    if (!slot.chunk) {
-      slot = {std::make_shared<Chunk>(), version_};
-    } else if (slot.version != version_) {
-      slot = {std::make_shared<Chunk>(*slot.chunk), version_};
+    std::shared_ptr<Chunk>& chunk = now_.chunks_[id.value / Chunk::kSize];
+    if (!chunk || chunk->version != now_.version_) {
+      chunk = chunk ? std::make_shared<Chunk>(*chunk) : std::make_shared<Chunk>();
+      chunk->version = now_.version_;
     }
-    return *slot.chunk;
+    return *chunk;
   }
 
-  std::vector<Slot> slots_;  // by id, for TableChunk::kSize ids each
-  std::size_t ids_issued_ = 0;
+  TableSnapshot<Id, T> now_;  // what a snapshot taken now would show
   std::size_t size_ = 0;
-  std::uint64_t version_ = 1;  // objects that were never part of a table of this kind are of 0
 };
 
 }  // namespace ofm
