@@ -1,6 +1,7 @@
 #include "ofm/base/thread_priority.h"
 
 #ifdef __linux__
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -25,9 +26,12 @@ int ThreadNiceness() { return getpriority(PRIO_PROCESS, ThreadId()); }
 
 void LowerThreadPriority(int niceness) {
   OFM_CHECK(niceness >= 0);
-  constexpr int kMostNice = 19;
+  const int lowered = std::min(kIdleNiceness, ThreadNiceness() + niceness);
   // A failure leaves the thread as urgent as it was, which is no error.
-  setpriority(PRIO_PROCESS, ThreadId(), std::min(kMostNice, ThreadNiceness() + niceness));
+  setpriority(PRIO_PROCESS, ThreadId(), lowered);
+  if (lowered < kIdleNiceness) return;
+  constexpr sched_param kNoPriority{};
+  sched_setscheduler(static_cast<pid_t>(ThreadId()), SCHED_IDLE, &kNoPriority);
 }
 
 #else

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 #include <algorithm>
 #include <stdexcept>
 #include <thread>
@@ -29,6 +33,24 @@ TEST(ThreadPriority, StopsAtTheLowest) {
     EXPECT_LE(ThreadNiceness(), 19);
     LowerThreadPriority(0);
   }).join();
+}
+
+TEST(ThreadPriority, TheNicestThreadAloneIsIdle) {
+#ifndef __linux__
+  GTEST_SKIP() << "threads have no policy of their own here";
+#else
+  const int own = sched_getscheduler(0);
+  int nice = -1, idle = -1;
+  std::jthread([&] {
+    LowerThreadPriority(kIdleNiceness - 1 - ThreadNiceness());
+    nice = sched_getscheduler(0);
+    LowerThreadPriority(1);
+    idle = sched_getscheduler(0);
+  }).join();
+  EXPECT_EQ(nice, own);
+  EXPECT_EQ(idle, SCHED_IDLE);
+  EXPECT_EQ(sched_getscheduler(0), own);
+#endif
 }
 
 TEST(ThreadPriority, RaisingIsAProgrammersError) {

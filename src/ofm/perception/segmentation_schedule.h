@@ -42,7 +42,7 @@ struct SegmentationScheduleOptions {
   int every_nth = 1;  ///< the network runs on each n-th frame; masks are carried to those between
   SegmentationFailure on_failure = SegmentationFailure::kStop;  ///< in mode wait
   double max_age_s = 1;  ///< masks whose frame is older are dropped
-  int niceness = 19;     ///< by which the network's thread is less urgent (Linux)
+  int niceness = 19;     ///< by which the network's thread is less urgent (Linux); 19: SCHED_IDLE
   MaskPropagationOptions propagation = {};
 
   template <class Self, class Visitor>
@@ -52,7 +52,9 @@ struct SegmentationScheduleOptions {
           Range{1, 1000});
     visit("on_failure", self.on_failure, "mode wait: what an error of the network does");
     visit("max_age_s", self.max_age_s, "masks whose frame is older are dropped [s]", Range{0, 60});
-    visit("niceness", self.niceness, "mode latest: of the network's thread (Linux)", Range{0, 19});
+    visit("niceness", self.niceness,
+          "mode latest: of the network's thread (Linux); 19 takes only what no thread wants",
+          Range{0, 19});
     visit("propagation", self.propagation, "how masks are carried");
   }
 };

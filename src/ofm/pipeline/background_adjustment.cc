@@ -22,7 +22,7 @@ void BackgroundAdjustment::Start(std::shared_ptr<const MapSnapshot> map) {
   Cancel();
   std::packaged_task<FinishedAdjustment(std::stop_token)> task(
       [map = std::move(map), model = model_, options = options_](const std::stop_token& stop) {
-        LowerThreadPriority(kUpkeepNiceness);
+        LowerThreadPriority(kAdjustmentNiceness);
         return Adjust(*map, model, options, stop);
       });
   result_ = task.get_future();

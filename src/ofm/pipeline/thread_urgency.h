@@ -1,12 +1,15 @@
 // Who gives way when a run has more threads than cores.
 #pragma once
 
+#include "ofm/base/thread_priority.h"
+
 namespace ofm {
 
 /// The front end and tracking have the camera's pace to keep, so they come first: what tracking
 /// does not wait for takes the time that they leave. Given to LowerThreadPriority.
-inline constexpr int kMappingNiceness = 2;  ///< key frames wait for it
-inline constexpr int kUpkeepNiceness = 10;  ///< nothing waits for it until the run's end
-// The network's thread is less urgent still: perception.schedule.niceness.
+inline constexpr int kMappingNiceness = 5;      ///< key frames wait for it
+inline constexpr int kAdjustmentNiceness = 10;  ///< of the whole map; mapping waits for its end
+inline constexpr int kUpkeepNiceness = kIdleNiceness;  ///< nothing waits for it until the run's end
+// The network's thread is as idle: perception.schedule.niceness.
 
 }  // namespace ofm
