@@ -12,9 +12,7 @@ void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point,
                                            const Eigen::Vector3f& viewpoint) {
   const std::optional<VoxelIndex> voxel = FindVoxel(point.position, voxels_per_metre_);
   if (!voxel) return;
-  const std::uint32_t number = table_.Insert(*voxel);
-  if (number == sums_.size()) sums_.emplace_back();
-  Sum& sum = sums_[number];
+  Sum& sum = sums_[NumberOf(*voxel)];
   sum.position += static_cast<double>(point.precision) * point.position.template cast<double>();
   sum.viewpoint += static_cast<double>(point.precision) * viewpoint.template cast<double>();
   sum.color += Eigen::Vector3i(point.color.r, point.color.g, point.color.b);
@@ -22,6 +20,17 @@ void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point,
   ++sum.count;
   sum.labels.Add(point.class_id, weight_(point));
   sum.instances.Add(point.instance);
+}
+
+/// Neighbours in an image are often of one voxel, so the last one is looked at first.
+template <class Labels, class Weight>
+std::uint32_t BasicVoxelFilter<Labels, Weight>::NumberOf(const VoxelIndex& voxel) {
+  if (voxel == last_voxel_) return last_number_;
+  const std::uint32_t number = table_.Insert(voxel);
+  if (number == sums_.size()) sums_.emplace_back();
+  last_voxel_ = voxel;
+  last_number_ = number;
+  return number;
 }
 
 template <class Labels, class Weight>

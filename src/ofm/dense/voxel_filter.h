@@ -66,10 +66,14 @@ class BasicVoxelFilter {
     LabelledPoint Point() const;
   };
 
+  std::uint32_t NumberOf(const VoxelIndex& voxel);
+
   double voxels_per_metre_;
   Weight weight_;
   VoxelTable table_;
   std::vector<Sum> sums_;
+  VoxelIndex last_voxel_ = VoxelIndex::Constant(kVoxelLimit);  // none has that index
+  std::uint32_t last_number_ = 0;
 };
 
 /// For points of one view, which are not independent: the label with most confidence, and its mean

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,9 +20,10 @@ inline std::optional<VoxelIndex> FindVoxel(const Eigen::Vector3f& position,
                                            double voxels_per_metre) {
   VoxelIndex voxel;
   for (int axis = 0; axis < 3; ++axis) {
-    const double coordinate = std::floor(voxels_per_metre * position[axis]);
+    const double coordinate = voxels_per_metre * position[axis];
     if (!(coordinate >= -kVoxelLimit && coordinate < kVoxelLimit)) return {};
-    voxel[axis] = static_cast<int>(coordinate);
+    const int towards_zero = static_cast<int>(coordinate);  // std::floor is a call, this is hot
+    voxel[axis] = towards_zero - (coordinate < towards_zero ? 1 : 0);
   }
   return voxel;
 }

@@ -71,6 +71,7 @@ std::vector<Instance> MaskPropagation::Carry(const MaskSource& source,
   const FixedOrigins origins = Fix(target.origins);
   const cv::Mat free = Follow(seen_, origins) < 255;
   std::vector<Instance> carried;
+  std::vector<cv::Mat> masks;
   for (std::size_t i = 0; i < source.instances.size(); ++i) {
     cv::Mat mask = Follow(source.cells[i], origins) > 127;
     const auto& depths = source.depths[i];
@@ -83,11 +84,15 @@ std::vector<Instance> MaskPropagation::Carry(const MaskSource& source,
     cv::Mat part = mask(around);
     if (depths) FitToDepth(target.cell_depth_m(around), free(around), part);
     if (!Tidy(part)) continue;
-    Instance now = source.instances[i];
-    now.mask = UpsampleMask(cells_, mask, target.cell_depth_m, target.depth_m);
-    now.box = cv::boundingRect(now.mask);
-    if (!now.box.empty()) carried.push_back(std::move(now));
+    carried.push_back(source.instances[i]);
+    masks.push_back(std::move(mask));
   }
+  masks = UpsampleMasks(cells_, masks, target.cell_depth_m, target.depth_m);
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    carried[i].mask = std::move(masks[i]);
+    carried[i].box = cv::boundingRect(carried[i].mask);
+  }
+  std::erase_if(carried, [](const Instance& instance) { return instance.box.empty(); });
   return carried;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <span>
+#include <vector>
 
 #include "ofm/camera/ideal_lattice.h"
 
@@ -13,5 +15,9 @@ namespace ofm {
 /// `depth_m`: CV_32FC1, 0 = none; pixels without depth follow their own cell.
 cv::Mat UpsampleMask(const IdealLattice& cells, const cv::Mat& moving, const cv::Mat& cell_depth_m,
                      const cv::Mat& depth_m);
+
+/// The same for many objects' masks, which may overlap; each pixel is looked at once for all.
+std::vector<cv::Mat> UpsampleMasks(const IdealLattice& cells, std::span<const cv::Mat> masks,
+                                   const cv::Mat& cell_depth_m, const cv::Mat& depth_m);
 
 }  // namespace ofm

@@ -63,6 +63,23 @@ TEST_F(UpsampleMaskTest, CellsWithoutDepthAreNotFollowed) {
   EXPECT_EQ(cv::norm(Upsample(), cells_.ToImage(moving_), cv::NORM_INF), 0);
 }
 
+/// More than fit into one pass, and overlapping.
+TEST_F(UpsampleMaskTest, ManyAtOnceAreWhatEachIsAlone) {
+  std::vector<cv::Mat> masks;
+  for (int i = 0; i < 70; ++i) {
+    masks.push_back(moving_.clone());
+    masks.back().colRange(0, i % moving_.cols) = 0;
+  }
+  const std::vector<cv::Mat> upsampled = UpsampleMasks(cells_, masks, cell_depth_m_, depth_m_);
+  ASSERT_EQ(upsampled.size(), masks.size());
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const cv::Mat alone = UpsampleMask(cells_, masks[i], cell_depth_m_, depth_m_);
+    EXPECT_EQ(cv::norm(upsampled[i], alone, cv::NORM_INF), 0) << i;
+  }
+  EXPECT_GT(cv::countNonZero(upsampled[9]), cv::countNonZero(upsampled[10]));
+  EXPECT_TRUE(UpsampleMasks(cells_, {}, cell_depth_m_, depth_m_).empty());
+}
+
 TEST_F(UpsampleMaskTest, WorksWithALens) {
   PinholeCamera camera = MakeSimCamera(96, 72);
   camera.k1 = 0.26;
