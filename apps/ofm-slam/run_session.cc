@@ -17,6 +17,7 @@
 #include "ofm/map/map_file.h"
 #include "ofm/map/submap.h"
 #include "ofm/perception/make_segmenter.h"
+#include "ofm/pipeline/delay_meter.h"
 #include "ofm/pipeline/keyframe_images.h"
 #include "ofm/pipeline/paced_source.h"
 #include "ofm/pipeline/runner.h"
@@ -182,6 +183,8 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   if (!settings.write_inpainted.empty()) hidden.emplace(settings.write_inpainted);
   std::unique_ptr<LiveView> view = OpenView(settings, camera, *segmenter, *source.frames);
   KeyframeImages keyframe_images(settings.options.keyframe_images);
+  std::optional<DelayMeter> delays;
+  if (source.paced != nullptr) delays.emplace(*source.paced, SteadyPacingClock());
   Slam slam(camera, settings.options, std::move(segmenter), start_map);
   RunReport report;
   {
@@ -194,6 +197,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
     if (hidden) context.observers.push_back(&*hidden);
     if (view) context.observers.push_back(view.get());
     context.observers.push_back(&keyframe_images);
+    if (delays) context.observers.push_back(&*delays);
     context.stop = stop;
     report.outcome = settings.threaded || settings.realtime
                          ? RunThreaded(slam, *source.frames, context)
@@ -212,6 +216,7 @@ RunReport RunSession(const RunSettings& settings, std::stop_token stop) {
   report.description.saved_map = settings.save_map.string();
   report.description.camera = camera;
   if (meter) report.description.culling = meter->counts();
+  if (delays) report.description.pose_delays = delays->delays();
   report.description.evaluation = Evaluate(truth, report.outcome.trajectory);
   report.description.live_evaluation = Evaluate(truth, report.outcome.live_trajectory);
   report.description.evaluation_in_map =
@@ -266,6 +271,12 @@ std::string FormatSummary(const RunReport& report) {
   text += fmt::format("time        {:.1f} s, {:.1f} frames/s, {:.1f} ms CPU per frame\n",
                       outcome.wall_s, outcome.wall_s > 0 ? counts.frames / outcome.wall_s : 0,
                       counts.frames > 0 ? 1e3 * outcome.process_cpu_s / counts.frames : 0);
+  if (const auto& delays = description.pose_delays) {
+    text += fmt::format(
+        "delay       from a frame to its pose {:.0f} ms (median), {:.0f} ms (p99), {:.0f} ms at "
+        "most\n",
+        delays->median_ms, delays->p99_ms, delays->max_ms);
+  }
   for (const auto& [stage, durations] : outcome.times.stages()) {
     const DurationStatistics cpu = Summarize(durations.cpu_ms);
     text += fmt::format("  {:<20} {:>6} x  median {:>8.2f} ms  p99 {:>8.2f} ms (CPU)\n", stage,

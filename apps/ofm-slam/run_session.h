@@ -26,7 +26,7 @@ struct RunSettings {
   FrameRange range;
   bool threaded = false;
   bool realtime = false;           ///< at the recorded pace; frames that come too early wait
-  std::size_t realtime_queue = 4;  ///< frames that can wait; of more the oldest are dropped
+  std::size_t realtime_queue = 8;  ///< frames that can wait; of more the oldest are dropped
   bool quiet = false;              ///< no progress bar
   bool view = false;               ///< serve a page that shows the run while it goes on
   WebServerOptions view_server = {"127.0.0.1", 8642};

@@ -128,10 +128,14 @@ TEST(Run, ThreadedTracksTheSameFrames) {
 
 TEST(Run, RealtimeKeepsThePaceAndCountsWhatItDrops) {
   const TestRecording recording(12, 1000);  // no machine is that fast
-  const ProgramResult result = recording.Run("--realtime");
+  const ProgramResult result = recording.Run("--realtime --realtime-queue 4");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const json counts = Summary(recording.output())["counts"];
+  const json summary = Summary(recording.output());
+  const json counts = summary["counts"];
   EXPECT_GT(counts["frames_dropped"], 0) << "four can wait";
+  EXPECT_EQ(summary["pose_delays"]["count"], counts["frames"]);
+  EXPECT_GT(summary["pose_delays"]["median_ms"], 0);
+  EXPECT_NE(result.out.find("from a frame to its pose"), std::string::npos);
   EXPECT_EQ(counts["frames"].get<int>() + counts["frames_dropped"].get<int>(), 12);
   EXPECT_EQ(CountPoses(recording.output() / "trajectory_live.txt"), counts["frames_tracked"]);
 }

@@ -43,12 +43,12 @@ std::optional<RgbdFrame> PacedSource::Next() {
   }
   if (!ahead_) ThrowError();
   if (!ahead_) return {};
-  clock_.wait_until_ns(DueNs(*ahead_));
+  clock_.wait_until_ns(DueNs(ahead_->stamp_ns));
   return std::exchange(ahead_, std::nullopt);
 }
 
 void PacedSource::ReadDue(std::int64_t now_ns) {
-  while ((ahead_ || ReadAhead()) && DueNs(*ahead_) <= now_ns) {
+  while ((ahead_ || ReadAhead()) && DueNs(ahead_->stamp_ns) <= now_ns) {
     queue_.push_back(std::move(*ahead_));
     ahead_.reset();
     if (queue_.size() <= queue_frames_) continue;

@@ -33,11 +33,10 @@ class PacedSource : public FrameSource {
   std::optional<std::size_t> size() const override { return source_->size(); }
   std::size_t dropped() const { return dropped_; }
 
- private:
-  std::int64_t DueNs(const RgbdFrame& frame) const {
-    return start_ns_ + frame.stamp_ns - first_stamp_ns_;
-  }
+  /// When a frame of that stamp is due, by the clock; known once a frame was given.
+  std::int64_t DueNs(std::int64_t stamp_ns) const { return start_ns_ + stamp_ns - first_stamp_ns_; }
 
+ private:
   /// Reads what is due by now into the queue, and one frame more.
   void ReadDue(std::int64_t now_ns);
   /// False at the end, and where the source fails: the frames before it are to be given first.

@@ -23,8 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json StatisticsJson(const std::vector<double>& durations_ms) {
-  const DurationStatistics statistics = Summarize(durations_ms);
+Json StatisticsJson(const DurationStatistics& statistics) {
   return {{"count", statistics.count},
           {"mean_ms", statistics.mean_ms},
           {"median_ms", statistics.median_ms},
@@ -119,8 +118,8 @@ void WriteUnjoined(const std::filesystem::path& folder, const RunOutcome& outcom
 Json StagesJson(const StageTimes& times) {
   Json json = Json::object();
   for (const auto& [stage, durations] : times.stages()) {
-    json[stage] = {{"cpu", StatisticsJson(durations.cpu_ms)},
-                   {"wall", StatisticsJson(durations.wall_ms)}};
+    json[stage] = {{"cpu", StatisticsJson(Summarize(durations.cpu_ms))},
+                   {"wall", StatisticsJson(Summarize(durations.wall_ms))}};
   }
   return json;
 }
@@ -205,6 +204,7 @@ std::string SummaryJson(const RunOutcome& outcome, const SlamOptions& options,
   json["counts"] = CountsJson(outcome.counts);
   json["loops"] = LoopsJson(outcome);
   json["submaps"] = SubmapsJson(outcome);
+  if (description.pose_delays) json["pose_delays"] = StatisticsJson(*description.pose_delays);
   if (description.culling) json["culling"] = CullingToJson(*description.culling);
   if (description.evaluation) json["trajectory"] = EvaluationToJson(*description.evaluation);
   if (description.live_evaluation) {

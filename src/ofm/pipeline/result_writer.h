@@ -25,7 +25,8 @@ struct RunDescription {
   std::optional<TrajectoryEvaluation> evaluation, live_evaluation;  ///< where there is ground truth
   /// The trajectory in the loaded map's world, aligned by the map's own keyframes.
   std::optional<TrajectoryEvaluation> evaluation_in_map;
-  std::optional<CullingCounts> culling;  ///< where there are true masks
+  std::optional<CullingCounts> culling;           ///< where there are true masks
+  std::optional<DurationStatistics> pose_delays;  ///< of DelayMeter, at the camera's pace
 };
 
 /// Writes trajectory.txt, trajectory_live.txt, keyframes.txt, frames.csv, times.csv, map.ply or
