@@ -1,7 +1,10 @@
 #include "ofm/pipeline/back_end.h"
 
+#include <utility>
+
 #include "ofm/map/submap.h"
 #include "ofm/perception/label_image.h"
+#include "ofm/pipeline/keep_error.h"
 
 namespace ofm {
 
@@ -48,9 +51,9 @@ BackEnd::BackEnd(Slam& slam, LoopAdjustment adjustment)
     : slam_(slam),
       adjustment_(adjustment),
       background_(slam.model(), slam.options().mapping.final_bundle),
-      octree_(slam.options().dense, adjustment == LoopAdjustment::kAtOnce
-                                        ? UpkeepThread::kCaller
-                                        : UpkeepThread::kBackground) {}
+      dense_(slam.semantic_mapper(), slam.object_mapper(),
+             adjustment == LoopAdjustment::kAtOnce ? UpkeepThread::kCaller
+                                                   : UpkeepThread::kBackground) {}
 
 std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   KeyframeId id;
@@ -62,16 +65,9 @@ std::shared_ptr<const MapSnapshot> BackEnd::Insert(KeyframeJob job) {
   is_whole_ = true;
   keyframe_of_frame_[job.candidate.frame_id] = id;
   unseen_.push_back(id);
-  if (!job.labelled.depth_m.empty()) {
-    ScopedStageTimer timer(times_, "semantic_cloud");
-    job.labelled.id = id;
-    slam_.semantic_mapper().AddKeyframe(job.labelled, job.views);
-  }
-  if (!job.instances.depth_m.empty()) {
-    ScopedStageTimer timer(times_, "object_observation");
-    job.instances.id = id;
-    slam_.object_mapper().AddKeyframe(job.instances);
-  }
+  job.dense.labelled.id = id;
+  job.dense.instances.id = id;
+  dense_jobs_.push_back(std::move(job.dense));
   return slam_.mapper().Snapshot();
 }
 
@@ -85,29 +81,12 @@ std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
   std::shared_ptr<const MapSnapshot> map = slam_.mapper().Snapshot();
   if (slam_.options().loop.enabled) map = CloseLoops(std::move(map));
   is_whole_ = true;
-  BoundClouds(*map);
-  KeepUpOctree(*map);
   return map;
 }
 
-/// What key frames saw that the map let go, others saw too: of these clouds the oldest go, a
-/// quarter of the limit at once, as the octree is rebuilt without them.
-void BackEnd::BoundClouds(const MapSnapshot& map) {
-  const auto limit = static_cast<std::size_t>(slam_.options().dense.max_spare_clouds);
-  std::vector<KeyframeId> spare;
-  for (const auto& [id, cloud] : slam_.semantic_mapper().clouds()) {
-    if (map.keyframes.Find(id) == nullptr) spare.push_back(id);
-  }
-  if (spare.size() <= limit) return;
-  spare.resize(spare.size() - limit + limit / 4);
-  for (const KeyframeId id : spare) slam_.semantic_mapper().RemoveKeyframe(id);
-}
-
-void BackEnd::KeepUpOctree(const MapSnapshot& map) {
-  const SlamOptions& options = slam_.options();
-  if (!options.build_semantic_map) return;
-  if (options.dense.octree.upkeep != OctreeUpkeepTime::kWhileRunning) return;
-  octree_.Update(slam_.semantic_mapper().clouds(), KeyframePoses(map, ResultSubmap(map)));
+void BackEnd::UpdateDenseMaps(std::shared_ptr<const MapSnapshot> map) {
+  KeyframePoseMap poses = KeyframePoses(*map, ResultSubmap(*map));
+  dense_.Update({std::exchange(dense_jobs_, {}), std::move(map), std::move(poses)});
 }
 
 /// Whose world the results are in.
@@ -184,24 +163,28 @@ void BackEnd::Finish(RunOutcome& outcome) {
   if (!slam_.options().localize_only) FinishMaps(outcome);
 }
 
-/// Objects, and the semantic map whose points know them.
+/// Objects, and the semantic map whose points know them: of all that the mappers were given, also
+/// where that ended by an error.
 void BackEnd::FinishMaps(RunOutcome& outcome) {
+  if (!dense_jobs_.empty()) {
+    KeepError(outcome.error, [&] { UpdateDenseMaps(outcome.map); });
+  }
+  const std::exception_ptr error = dense_.Finish();
+  times_.Merge(dense_.times());
   const KeyframePoseMap poses = KeyframePoses(*outcome.map, outcome.submap);
   if (slam_.makes_objects()) {
     ScopedStageTimer timer(times_, "objects");
     outcome.objects = slam_.object_mapper().Build(poses);
     outcome.objects->class_names = slam_.front_end().class_names();
   }
-  if (!slam_.options().build_semantic_map) return;
-  {
+  if (slam_.options().build_semantic_map) {
     ScopedStageTimer timer(times_, "semantic_map");
-    const SemanticMapper& mapper = slam_.semantic_mapper();
-    SemanticOctree octree = octree_.Finish(mapper.clouds(), poses);
     const InstanceObjects objects =
         outcome.objects ? FindInstanceObjects(outcome.objects->objects) : InstanceObjects();
-    outcome.semantic_map = mapper.Complete(std::move(octree), poses, objects);
+    outcome.semantic_map =
+        slam_.semantic_mapper().Complete(dense_.FinishOctree(poses), poses, objects);
   }
-  times_.Merge(octree_.times());
+  if (error) std::rethrow_exception(error);
 }
 
 /// Those of this run whose place in the sub-map's world is known: world_from_camera.

@@ -6,7 +6,7 @@
 
 #include "ofm/base/timing.h"
 #include "ofm/pipeline/background_adjustment.h"
-#include "ofm/pipeline/octree_upkeep.h"
+#include "ofm/pipeline/dense_upkeep.h"
 #include "ofm/pipeline/run_outcome.h"
 #include "ofm/pipeline/slam.h"
 
@@ -16,9 +16,7 @@ namespace ofm {
 struct KeyframeJob {
   KeyframeCandidate candidate;
   std::vector<Sighting> sightings;
-  LabelledFrame labelled;  ///< its id is set by the back end; no images where no map is wanted
-  std::vector<LabelledFrame> views;  ///< frames since the last keyframe, for the semantic map
-  InstanceFrame instances;           ///< the same, where no objects are wanted
+  DenseJob dense;  ///< ids are set by the back end
 };
 
 /// The images and labels of a frame as the semantic map takes them, in the frame's own camera.
@@ -31,14 +29,14 @@ InstanceFrame MakeInstanceFrame(const PreparedFrame& prepared);
 /// Which object each instance of each key frame became.
 InstanceObjects FindInstanceObjects(std::span<const SceneObject> objects);
 
-/// When the whole map is adjusted after a loop, and the octree brought up to the map.
+/// When the whole map is adjusted after a loop, and the dense maps are brought up to the map.
 enum class LoopAdjustment {
   kAtOnce,        ///< before the next keyframe: reproducible
   kInBackground,  ///< while further keyframes come; a newer loop cancels it
 };
 
 /// Runs the mapping, loop and dense stages of `slam` for one keyframe at a time. Serves one thread.
-/// Once Insert or Refine has thrown, only Finish may follow.
+/// Once one of the others has thrown, only Finish may follow.
 class BackEnd {
  public:
   explicit BackEnd(Slam& slam, LoopAdjustment adjustment = LoopAdjustment::kAtOnce);
@@ -50,6 +48,9 @@ class BackEnd {
   virtual std::shared_ptr<const MapSnapshot> Insert(KeyframeJob job);
   /// Everything that may take its time, loops included; gives the refined snapshot.
   virtual std::shared_ptr<const MapSnapshot> Refine(std::stop_token stop = {});
+  /// Hands the keyframes inserted since to the dense maps, with their poses in `map`, the latest
+  /// snapshot: what tracking does not wait for.
+  virtual void UpdateDenseMaps(std::shared_ptr<const MapSnapshot> map);
   /// Final adjustment, the semantic map and the objects (without tracks), from the poses that then
   /// are known. `outcome` has a map even where this throws. A map whose last change was cut short
   /// by an error is not adjusted.
@@ -65,17 +66,16 @@ class BackEnd {
   void AdjustAfterLoop();
   KeyframePoseMap KeyframePoses(const MapSnapshot& map, SubmapId submap) const;
   SubmapId ResultSubmap(const MapSnapshot& map) const;
-  void BoundClouds(const MapSnapshot& map);
-  void KeepUpOctree(const MapSnapshot& map);
   void FinishMaps(RunOutcome& outcome);
   void TakeAdjustment(std::optional<FinishedAdjustment> finished);
 
   Slam& slam_;
   LoopAdjustment adjustment_;
   BackgroundAdjustment background_;
-  OctreeUpkeep octree_;
+  DenseUpkeep dense_;
   std::vector<KeyframeId> unseen_;  // keyframes in which no loop was looked for yet
   std::vector<LoopRecord> loops_;
+  std::vector<DenseJob> dense_jobs_;  // of keyframes that the dense maps do not have yet
   StageTimes times_;
   std::map<FrameId, KeyframeId> keyframe_of_frame_;
   bool is_whole_ = true;  // no change of the map was cut short

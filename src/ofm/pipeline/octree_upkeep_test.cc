@@ -50,10 +50,10 @@ KeyframePoseMap MakePoses(std::uint32_t count, double step_m) {
 }
 
 /// As a run goes: one key frame more at each update, and all of them somewhere else.
-std::string KeepUp(UpkeepThread thread) {
+std::string KeepUp() {
   constexpr std::uint32_t kCount = 12;
   const KeyframeClouds clouds = MakeClouds(kCount);
-  OctreeUpkeep upkeep({}, thread);
+  OctreeUpkeep upkeep{DenseOptions()};
   for (std::uint32_t count = 1; count <= kCount; ++count) {
     upkeep.Update(clouds, MakePoses(count, .1 + .02 * count));
   }
@@ -63,19 +63,12 @@ std::string KeepUp(UpkeepThread thread) {
 TEST(OctreeUpkeep, TheOctreeInTheEndIsThatOfTheFinalPoses) {
   OctreeIntegrator at_once{DenseOptions()};
   at_once.Update(MakeClouds(12), MakePoses(12, .15), 0);
-  EXPECT_EQ(KeepUp(UpkeepThread::kCaller), Bytes(at_once.octree()));
-  EXPECT_EQ(KeepUp(UpkeepThread::kBackground), Bytes(at_once.octree()));
+  EXPECT_EQ(KeepUp(), Bytes(at_once.octree()));
 }
 
 TEST(OctreeUpkeep, NothingNeedsToHaveBeenUpdated) {
-  OctreeUpkeep upkeep({}, UpkeepThread::kBackground);
+  OctreeUpkeep upkeep{DenseOptions()};
   EXPECT_FALSE(upkeep.Finish(MakeClouds(2), MakePoses(2, .1)).empty());
-  EXPECT_TRUE(upkeep.times().stages().empty());
-}
-
-TEST(OctreeUpkeep, ItsThreadEndsWithIt) {
-  OctreeUpkeep upkeep({}, UpkeepThread::kBackground);
-  upkeep.Update(MakeClouds(5), MakePoses(5, .1));
 }
 
 /// The semantic map of a run, and the one built at once from the poses that the run ended with.

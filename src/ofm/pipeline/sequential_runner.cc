@@ -26,6 +26,7 @@ RunOutcome RunSequential(Slam& slam, BackEnd& back_end, FrameSource& source,
       if (!job) continue;
       map = back_end.Insert(std::move(*job));
       map = back_end.Refine();
+      back_end.UpdateDenseMaps(map);
     }
   });
   KeepError(outcome.error, [&] { back_end.Finish(outcome); });

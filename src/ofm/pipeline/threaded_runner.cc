@@ -1,3 +1,4 @@
+#include <atomic>
 #include <exception>
 #include <stdexcept>
 #include <thread>
@@ -42,6 +43,7 @@ struct Exchange {
   BoundedQueue<PreparedFrame> prepared{kPreparedFrames};
   BoundedQueue<KeyframeJob> jobs{kKeyframeJobs};
   Latest<std::shared_ptr<const MapSnapshot>> map;  // null once the back end has failed
+  std::atomic<int> keyframes_inserted = 0;         // that are in `map`
   StageTimes flow_times, perception_times;         // read after the threads were joined
 };
 
@@ -86,8 +88,10 @@ ThreadEnd RunBackEnd(BackEnd& back_end, Exchange& exchange) {
   ThreadEnd end = Guard([&] {
     while (std::optional<KeyframeJob> job = exchange.jobs.Pop()) {
       exchange.map.Set(back_end.Insert(std::move(*job)));
+      ++exchange.keyframes_inserted;
       // Refining may wait while further keyframes do.
       if (exchange.jobs.size() == 0) exchange.map.Set(back_end.Refine());
+      back_end.UpdateDenseMaps(exchange.map.Get());
     }
   });
   if (!end.error.empty() || end.exception) {
@@ -99,8 +103,9 @@ ThreadEnd RunBackEnd(BackEnd& back_end, Exchange& exchange) {
 
 /// Tracks what the front end prepared until that ends, or the back end has failed.
 void Track(TrackingLoop& tracking, Exchange& exchange) {
+  int keyframes_made = 0;
   while (std::optional<PreparedFrame> prepared = exchange.prepared.Pop()) {
-    const int waiting = static_cast<int>(exchange.jobs.size());
+    const int waiting = keyframes_made - exchange.keyframes_inserted;  // before the map is taken
     std::shared_ptr<const MapSnapshot> map = exchange.map.Get();
     if (!map) return;
     std::optional<KeyframeJob> job = tracking.Process(*prepared, std::move(map), waiting);
@@ -108,6 +113,7 @@ void Track(TrackingLoop& tracking, Exchange& exchange) {
     const bool begins_submap = job->candidate.begins_submap;
     const FrameId frame_id = job->candidate.frame_id;
     exchange.jobs.Push(std::move(*job));
+    ++keyframes_made;
     // Before a sub-map is there, there is nothing to track against.
     if (!begins_submap) continue;
     exchange.map.WaitUntil([&](const auto& value) {

@@ -82,10 +82,10 @@ std::optional<KeyframeJob> TrackingLoop::Process(const PreparedFrame& prepared,
   job.sightings = std::move(sightings_);
   sightings_.clear();
   if (for_map) {
-    if (input.map) job.views = views_.Take(job.candidate, *input.map);
-    job.labelled = MakeLabelledFrame(prepared, result.depth_from_color);
+    if (input.map) job.dense.views = views_.Take(job.candidate, *input.map);
+    job.dense.labelled = MakeLabelledFrame(prepared, result.depth_from_color);
   }
-  if (slam_.makes_objects()) job.instances = MakeInstanceFrame(prepared);
+  if (slam_.makes_objects()) job.dense.instances = MakeInstanceFrame(prepared);
   return job;
 }
 

@@ -1,0 +1,104 @@
+#include "ofm/pipeline/dense_upkeep.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "ofm/base/thread_priority.h"
+#include "ofm/pipeline/thread_urgency.h"
+
+namespace ofm {
+namespace {
+
+/// Updates that may wait with the views of their key frames (some 10 MB each), and at all (4 MB).
+constexpr std::size_t kWithViews = 4, kAtAll = 16;
+
+}  // namespace
+
+DenseUpkeep::DenseUpkeep(SemanticMapper& semantic_mapper, ObjectMapper& object_mapper,
+                         UpkeepThread thread)
+    : semantic_mapper_(semantic_mapper),
+      object_mapper_(object_mapper),
+      octree_(semantic_mapper.options()),
+      where_(thread),
+      updates_(kAtAll) {}
+
+void DenseUpkeep::Update(DenseUpdate update) {
+  if (where_ == UpkeepThread::kCaller) return Process(update, true);
+  if (const std::exception_ptr error = error_.Get()) {
+    error_.Set(nullptr);
+    std::rethrow_exception(error);
+  }
+  if (updates_.size() >= kWithViews) {
+    for (DenseJob& job : update.jobs) {
+      views_left_out_ += job.views.size();
+      job.views.clear();
+    }
+  }
+  updates_.Push(std::move(update));
+  if (!thread_.joinable()) thread_ = std::jthread([this](std::stop_token stop) { Run(stop); });
+}
+
+void DenseUpkeep::Run(std::stop_token stop) {
+  LowerThreadPriority(kUpkeepNiceness);
+  try {
+    while (const std::optional<DenseUpdate> update = updates_.Pop(stop)) {
+      Process(*update, updates_.size() == 0);
+    }
+  } catch (...) {
+    error_.Set(std::current_exception());
+    updates_.Close();
+  }
+}
+
+void DenseUpkeep::Process(const DenseUpdate& update, bool is_latest) {
+  for (const DenseJob& job : update.jobs) Add(job);
+  BoundClouds(*update.map);
+  const DenseOptions& options = semantic_mapper_.options();
+  if (options.octree.upkeep != OctreeUpkeepTime::kWhileRunning) return;
+  if (!is_latest || semantic_mapper_.size() == 0) return;
+  ScopedStageTimer timer(times_, "octree_upkeep");
+  octree_.Update(semantic_mapper_.clouds(), update.world_from_camera);
+}
+
+void DenseUpkeep::Add(const DenseJob& job) {
+  if (!job.labelled.depth_m.empty()) {
+    ScopedStageTimer timer(times_, "semantic_cloud");
+    semantic_mapper_.AddKeyframe(job.labelled, job.views);
+  }
+  if (!job.instances.depth_m.empty()) {
+    ScopedStageTimer timer(times_, "object_observation");
+    object_mapper_.AddKeyframe(job.instances);
+  }
+}
+
+/// What key frames saw that the map let go, others saw too: of these clouds the oldest go, a
+/// quarter of the limit at once, as the octree is rebuilt without them.
+void DenseUpkeep::BoundClouds(const MapSnapshot& map) {
+  const auto limit = static_cast<std::size_t>(semantic_mapper_.options().max_spare_clouds);
+  std::vector<KeyframeId> spare;
+  for (const auto& [id, cloud] : semantic_mapper_.clouds()) {
+    if (map.keyframes.Find(id) == nullptr) spare.push_back(id);
+  }
+  if (spare.size() <= limit) return;
+  spare.resize(spare.size() - limit + limit / 4);
+  for (const KeyframeId id : spare) semantic_mapper_.RemoveKeyframe(id);
+}
+
+std::exception_ptr DenseUpkeep::Finish() {
+  updates_.Close();
+  if (thread_.joinable()) thread_.join();
+  if (views_left_out_ > 0) {
+    spdlog::info("the dense map lacks {} frames between key frames: the machine was too busy",
+                 std::exchange(views_left_out_, 0));
+  }
+  const std::exception_ptr error = error_.Get();
+  error_.Set(nullptr);
+  return error;
+}
+
+SemanticOctree DenseUpkeep::FinishOctree(const KeyframePoseMap& world_from_camera) {
+  return octree_.Finish(semantic_mapper_.clouds(), world_from_camera);
+}
+
+}  // namespace ofm
