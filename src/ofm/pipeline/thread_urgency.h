@@ -7,7 +7,7 @@ namespace ofm {
 
 /// The front end and tracking have the camera's pace to keep, so they come first: what tracking
 /// does not wait for takes the time that they leave. Given to LowerThreadPriority.
-inline constexpr int kMappingNiceness = 5;      ///< key frames wait for it
+inline constexpr int kMappingNiceness = 1;      ///< key frames wait for it
 inline constexpr int kAdjustmentNiceness = 10;  ///< of the whole map; mapping waits for its end
 inline constexpr int kUpkeepNiceness = kIdleNiceness;  ///< nothing waits for it until the run's end
 // The network's thread is as idle: perception.schedule.niceness.
