@@ -20,33 +20,34 @@ class ViewComparison {
  public:
   ViewComparison(const PinholeCamera& camera, const DepthView& current, const DepthView& earlier,
                  const FreeSpaceOptions& options)
-      : camera_(camera), earlier_(earlier), options_(options) {
+      : earlier_(earlier),
+        fx_(static_cast<float>(camera.fx)),
+        fy_(static_cast<float>(camera.fy)),
+        cx_(static_cast<float>(camera.cx)),
+        cy_(static_cast<float>(camera.cy)),
+        margin_m_(static_cast<float>(options.margin_m)),
+        margin_per_metre_(static_cast<float>(options.margin_per_metre)) {
     const RigidTransform motion = earlier.camera_from_start * current.camera_from_start.Inverse();
     rotation_ = motion.RotationMatrix().cast<float>();
     translation_ = motion.translation().cast<float>();
   }
 
-  void Vote(int x, int y, float depth_m, Votes& votes) const {
-    const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
-    const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
-    const Eigen::Vector3f point =
-        rotation_ * Eigen::Vector3f((x - cx) / fx * depth_m, (y - cy) / fy * depth_m, depth_m) +
-        translation_;
+  void Vote(const Eigen::Vector3f& point_in_current, Votes& votes) const {
+    const Eigen::Vector3f point = rotation_ * point_in_current + translation_;
     if (point.z() <= 0) return;
-    const float u = fx * point.x() / point.z() + cx, v = fy * point.y() / point.z() + cy;
-    if (!(u > -0.5F && v > -0.5F && u < camera_.width - 0.5F && v < camera_.height - 0.5F)) return;
+    const float u = fx_ * point.x() / point.z() + cx_, v = fy_ * point.y() / point.z() + cy_;
+    const cv::Size size = earlier_.depth_m.size();
+    if (!(u > -0.5F && v > -0.5F && u < size.width - 0.5F && v < size.height - 0.5F)) return;
     const int column = static_cast<int>(u + 0.5F), row = static_cast<int>(v + 0.5F);
-    const float margin = static_cast<float>(options_.margin_m) +
-                         static_cast<float>(options_.margin_per_metre) * point.z();
-    const float seen = earlier_.depth_m.at<float>(row, column);
-    votes.free += earlier_.least_depth_m.at<float>(row, column) > point.z() + margin;
+    const float margin = margin_m_ + margin_per_metre_ * point.z();
+    const float seen = earlier_.depth_m.ptr<float>(row)[column];
+    votes.free += earlier_.least_depth_m.ptr<float>(row)[column] > point.z() + margin;
     votes.same += seen > 0 && std::abs(seen - point.z()) < margin;
   }
 
  private:
-  const PinholeCamera& camera_;
   const DepthView& earlier_;
-  const FreeSpaceOptions& options_;
+  float fx_, fy_, cx_, cy_, margin_m_, margin_per_metre_;
   Eigen::Matrix3f rotation_;
   Eigen::Vector3f translation_;
 };
@@ -96,13 +97,16 @@ cv::Mat FreeSpaceEvidence(const PinholeCamera& lattice_camera, const DepthView& 
   for (const DepthView* view : earlier) {
     comparisons.emplace_back(lattice_camera, current, *view, options);
   }
+  const auto fx = static_cast<float>(lattice_camera.fx), fy = static_cast<float>(lattice_camera.fy);
+  const auto cx = static_cast<float>(lattice_camera.cx), cy = static_cast<float>(lattice_camera.cy);
   cv::Mat evidence(current.depth_m.size(), CV_32FC1, cv::Scalar(0));
   for (int y = 0; y < evidence.rows; ++y) {
     for (int x = 0; x < evidence.cols; ++x) {
       const float depth = current.depth_m.at<float>(y, x);
       if (depth <= 0) continue;
+      const Eigen::Vector3f point((x - cx) / fx * depth, (y - cy) / fy * depth, depth);
       Votes votes;
-      for (const ViewComparison& comparison : comparisons) comparison.Vote(x, y, depth, votes);
+      for (const ViewComparison& comparison : comparisons) comparison.Vote(point, votes);
       evidence.at<float>(y, x) = static_cast<float>(
           votes.free > 0 ? options.log_odds : votes.same * options.static_log_odds);
     }
