@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "ofm/base/thread_priority.h"
 #include "ofm/pipeline/thread_urgency.h"
 
 namespace ofm {
@@ -36,11 +35,15 @@ void DenseUpkeep::Update(DenseUpdate update) {
     }
   }
   updates_.Push(std::move(update));
-  if (!thread_.joinable()) thread_ = std::jthread([this](std::stop_token stop) { Run(stop); });
+  if (thread_.joinable()) return;
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    LowerThreadPriority(kDenseNiceness);
+    Drain(stop);
+  });
 }
 
-void DenseUpkeep::Run(std::stop_token stop) {
-  LowerThreadPriority(kUpkeepNiceness);
+/// The thread, and the caller's last call.
+void DenseUpkeep::Drain(const std::stop_token& stop) {
   try {
     while (const std::optional<DenseUpdate> update = updates_.Pop(stop)) {
       Process(*update, updates_.size() == 0);
@@ -48,6 +51,7 @@ void DenseUpkeep::Run(std::stop_token stop) {
   } catch (...) {
     error_.Set(std::current_exception());
     updates_.Close();
+    while (updates_.TryPop()) continue;  // nothing is done after an error
   }
 }
 
@@ -87,7 +91,8 @@ void DenseUpkeep::BoundClouds(const MapSnapshot& map) {
 
 std::exception_ptr DenseUpkeep::Finish() {
   updates_.Close();
-  if (thread_.joinable()) thread_.join();
+  thread_ = std::jthread();  // stops once it has done what it is at
+  Drain({});                 // as urgently as the caller is
   if (views_left_out_ > 0) {
     spdlog::info("the dense map lacks {} frames between key frames: the machine was too busy",
                  std::exchange(views_left_out_, 0));

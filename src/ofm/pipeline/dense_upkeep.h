@@ -48,7 +48,7 @@ class DenseUpkeep {
   /// very much does.
   void Update(DenseUpdate update);
 
-  /// Does all that waits, and ends the thread. Gives what went wrong and was not thrown.
+  /// Ends the thread, and does what waits. Gives what went wrong and was not thrown.
   std::exception_ptr Finish();
   /// Of exactly these poses: what SemanticMapper::Build has. After Finish.
   SemanticOctree FinishOctree(const KeyframePoseMap& world_from_camera);
@@ -57,7 +57,7 @@ class DenseUpkeep {
   const StageTimes& times() const { return times_; }
 
  private:
-  void Run(std::stop_token stop);
+  void Drain(const std::stop_token& stop);
   void Process(const DenseUpdate& update, bool is_latest);
   void Add(const DenseJob& job);
   void BoundClouds(const MapSnapshot& map);

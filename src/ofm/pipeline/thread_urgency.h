@@ -9,7 +9,7 @@ namespace ofm {
 /// does not wait for takes the time that they leave. Given to LowerThreadPriority.
 inline constexpr int kMappingNiceness = 1;      ///< key frames wait for it
 inline constexpr int kAdjustmentNiceness = 10;  ///< of the whole map; mapping waits for its end
-inline constexpr int kUpkeepNiceness = kIdleNiceness;  ///< nothing waits for it until the run's end
+inline constexpr int kDenseNiceness = kIdleNiceness;  ///< of the dense maps
 // The network's thread is as idle: perception.schedule.niceness.
 
 }  // namespace ofm
