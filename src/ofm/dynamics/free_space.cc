@@ -15,16 +15,24 @@ struct Votes {
   int free = 0, same = 0;
 };
 
+/// The lattice's camera, in single precision.
+struct Intrinsics {
+  explicit Intrinsics(const PinholeCamera& camera)
+      : fx(static_cast<float>(camera.fx)),
+        fy(static_cast<float>(camera.fy)),
+        cx(static_cast<float>(camera.cx)),
+        cy(static_cast<float>(camera.cy)) {}
+
+  float fx, fy, cx, cy;
+};
+
 /// Carries the cells of one view into another and compares depths.
 class ViewComparison {
  public:
-  ViewComparison(const PinholeCamera& camera, const DepthView& current, const DepthView& earlier,
+  ViewComparison(const Intrinsics& lattice, const DepthView& current, const DepthView& earlier,
                  const FreeSpaceOptions& options)
-      : earlier_(earlier),
-        fx_(static_cast<float>(camera.fx)),
-        fy_(static_cast<float>(camera.fy)),
-        cx_(static_cast<float>(camera.cx)),
-        cy_(static_cast<float>(camera.cy)),
+      : lattice_(lattice),
+        earlier_(earlier),
         margin_m_(static_cast<float>(options.margin_m)),
         margin_per_metre_(static_cast<float>(options.margin_per_metre)) {
     const RigidTransform motion = earlier.camera_from_start * current.camera_from_start.Inverse();
@@ -35,7 +43,8 @@ class ViewComparison {
   void Vote(const Eigen::Vector3f& point_in_current, Votes& votes) const {
     const Eigen::Vector3f point = rotation_ * point_in_current + translation_;
     if (point.z() <= 0) return;
-    const float u = fx_ * point.x() / point.z() + cx_, v = fy_ * point.y() / point.z() + cy_;
+    const float u = lattice_.fx * point.x() / point.z() + lattice_.cx;
+    const float v = lattice_.fy * point.y() / point.z() + lattice_.cy;
     const cv::Size size = earlier_.depth_m.size();
     if (!(u > -0.5F && v > -0.5F && u < size.width - 0.5F && v < size.height - 0.5F)) return;
     const int column = static_cast<int>(u + 0.5F), row = static_cast<int>(v + 0.5F);
@@ -46,8 +55,9 @@ class ViewComparison {
   }
 
  private:
+  Intrinsics lattice_;
   const DepthView& earlier_;
-  float fx_, fy_, cx_, cy_, margin_m_, margin_per_metre_;
+  float margin_m_, margin_per_metre_;
   Eigen::Matrix3f rotation_;
   Eigen::Vector3f translation_;
 };
@@ -93,18 +103,18 @@ std::vector<const DepthView*> DepthMemory::Select(std::int64_t stamp_ns,
 cv::Mat FreeSpaceEvidence(const PinholeCamera& lattice_camera, const DepthView& current,
                           const std::vector<const DepthView*>& earlier,
                           const FreeSpaceOptions& options) {
+  const Intrinsics lattice(lattice_camera);
   std::vector<ViewComparison> comparisons;
   for (const DepthView* view : earlier) {
-    comparisons.emplace_back(lattice_camera, current, *view, options);
+    comparisons.emplace_back(lattice, current, *view, options);
   }
-  const auto fx = static_cast<float>(lattice_camera.fx), fy = static_cast<float>(lattice_camera.fy);
-  const auto cx = static_cast<float>(lattice_camera.cx), cy = static_cast<float>(lattice_camera.cy);
   cv::Mat evidence(current.depth_m.size(), CV_32FC1, cv::Scalar(0));
   for (int y = 0; y < evidence.rows; ++y) {
     for (int x = 0; x < evidence.cols; ++x) {
       const float depth = current.depth_m.at<float>(y, x);
       if (depth <= 0) continue;
-      const Eigen::Vector3f point((x - cx) / fx * depth, (y - cy) / fy * depth, depth);
+      const Eigen::Vector3f point((x - lattice.cx) / lattice.fx * depth,
+                                  (y - lattice.cy) / lattice.fy * depth, depth);
       Votes votes;
       for (const ViewComparison& comparison : comparisons) comparison.Vote(point, votes);
       evidence.at<float>(y, x) = static_cast<float>(

@@ -17,8 +17,6 @@ constexpr std::size_t kMasksAtOnce = 31;
 /// Of a cell that is not of the same masks as all of its neighbours.
 constexpr Members kDoubtful = Members{1} << kMasksAtOnce;
 
-Members& At(cv::Mat& members, int y, int x) { return members.ptr<Members>(y)[x]; }
-
 /// CV_32SC1 of Members per cell.
 cv::Mat FindMembers(std::span<const cv::Mat> masks) {
   cv::Mat members(masks[0].size(), CV_32SC1, cv::Scalar(0));
@@ -44,8 +42,8 @@ cv::Mat MarkDoubtful(const cv::Mat& members) {
       for (const cv::Point side : kHalfOfTheSides) {
         const cv::Point other = cv::Point(x, y) + side;
         if (!lattice.contains(other) || members.ptr<Members>(other.y)[other.x] == own) continue;
-        At(marked, y, x) |= kDoubtful;
-        At(marked, other.y, other.x) |= kDoubtful;
+        marked.ptr<Members>(y)[x] |= kDoubtful;
+        marked.ptr<Members>(other.y)[other.x] |= kDoubtful;
       }
     }
   }
@@ -105,9 +103,10 @@ cv::Rect FindArea(const IdealLattice& cells, const cv::Mat& members) {
 void Upsample(const IdealLattice& cells, std::span<const cv::Mat> masks,
               const cv::Mat& cell_depth_m, const cv::Mat& depth_m, std::span<cv::Mat> upsampled) {
   const cv::Mat members = FindMembers(masks);
+  const cv::Rect area = FindArea(cells, members);
+  if (area.empty()) return;
   const cv::Mat marked = MarkDoubtful(members);
   const Neighbourhoods neighbourhoods(members, cell_depth_m);
-  const cv::Rect area = FindArea(cells, members);
   for (int y = area.y; y < area.br().y; ++y) {
     const auto* points = cells.nearest_points().ptr<cv::Vec2s>(y);
     const float* depth = depth_m.ptr<float>(y);

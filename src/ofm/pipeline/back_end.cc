@@ -85,7 +85,11 @@ std::shared_ptr<const MapSnapshot> BackEnd::Refine(std::stop_token stop) {
 }
 
 void BackEnd::UpdateDenseMaps(std::shared_ptr<const MapSnapshot> map) {
-  KeyframePoseMap poses = KeyframePoses(*map, ResultSubmap(*map));
+  const SlamOptions& options = slam_.options();
+  const bool keeps_up_octree =
+      options.build_semantic_map && options.dense.octree.upkeep == OctreeUpkeepTime::kWhileRunning;
+  KeyframePoseMap poses;
+  if (keeps_up_octree) poses = KeyframePoses(*map, ResultSubmap(*map));
   dense_.Update({std::exchange(dense_jobs_, {}), std::move(map), std::move(poses)});
 }
 

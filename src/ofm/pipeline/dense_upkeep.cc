@@ -23,7 +23,11 @@ DenseUpkeep::DenseUpkeep(SemanticMapper& semantic_mapper, ObjectMapper& object_m
       updates_(kAtAll) {}
 
 void DenseUpkeep::Update(DenseUpdate update) {
-  if (where_ == UpkeepThread::kCaller) return Process(update, true);
+  if (where_ == UpkeepThread::kCaller) {
+    Add(update);
+    KeepUpOctree(update);
+    return;
+  }
   if (const std::exception_ptr error = error_.Get()) {
     error_.Set(nullptr);
     std::rethrow_exception(error);
@@ -46,7 +50,8 @@ void DenseUpkeep::Update(DenseUpdate update) {
 void DenseUpkeep::Drain(const std::stop_token& stop) {
   try {
     while (const std::optional<DenseUpdate> update = updates_.Pop(stop)) {
-      Process(*update, updates_.size() == 0);
+      Add(*update);
+      if (updates_.size() == 0) KeepUpOctree(*update);
     }
   } catch (...) {
     error_.Set(std::current_exception());
@@ -55,25 +60,24 @@ void DenseUpkeep::Drain(const std::stop_token& stop) {
   }
 }
 
-void DenseUpkeep::Process(const DenseUpdate& update, bool is_latest) {
-  for (const DenseJob& job : update.jobs) Add(job);
+void DenseUpkeep::Add(const DenseUpdate& update) {
+  for (const DenseJob& job : update.jobs) {
+    if (!job.labelled.depth_m.empty()) {
+      ScopedStageTimer timer(times_, "semantic_cloud");
+      semantic_mapper_.AddKeyframe(job.labelled, job.views);
+    }
+    if (!job.instances.depth_m.empty()) {
+      ScopedStageTimer timer(times_, "object_observation");
+      object_mapper_.AddKeyframe(job.instances);
+    }
+  }
   BoundClouds(*update.map);
-  const DenseOptions& options = semantic_mapper_.options();
-  if (options.octree.upkeep != OctreeUpkeepTime::kWhileRunning) return;
-  if (!is_latest || semantic_mapper_.size() == 0) return;
-  ScopedStageTimer timer(times_, "octree_upkeep");
-  octree_.Update(semantic_mapper_.clouds(), update.world_from_camera);
 }
 
-void DenseUpkeep::Add(const DenseJob& job) {
-  if (!job.labelled.depth_m.empty()) {
-    ScopedStageTimer timer(times_, "semantic_cloud");
-    semantic_mapper_.AddKeyframe(job.labelled, job.views);
-  }
-  if (!job.instances.depth_m.empty()) {
-    ScopedStageTimer timer(times_, "object_observation");
-    object_mapper_.AddKeyframe(job.instances);
-  }
+void DenseUpkeep::KeepUpOctree(const DenseUpdate& update) {
+  if (update.world_from_camera.empty()) return;
+  ScopedStageTimer timer(times_, "octree_upkeep");
+  octree_.Update(semantic_mapper_.clouds(), update.world_from_camera);
 }
 
 /// What key frames saw that the map let go, others saw too: of these clouds the oldest go, a

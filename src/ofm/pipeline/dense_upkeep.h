@@ -27,7 +27,8 @@ struct DenseJob {
 struct DenseUpdate {
   std::vector<DenseJob> jobs;
   std::shared_ptr<const MapSnapshot> map;
-  KeyframePoseMap world_from_camera;  ///< of all key frames of which there are results
+  /// Of all key frames of which there are results; empty where the octree is made at the end alone.
+  KeyframePoseMap world_from_camera;
 };
 
 enum class UpkeepThread {
@@ -58,8 +59,8 @@ class DenseUpkeep {
 
  private:
   void Drain(const std::stop_token& stop);
-  void Process(const DenseUpdate& update, bool is_latest);
-  void Add(const DenseJob& job);
+  void Add(const DenseUpdate& update);
+  void KeepUpOctree(const DenseUpdate& update);
   void BoundClouds(const MapSnapshot& map);
 
   SemanticMapper& semantic_mapper_;  // the thread's while there is one
