@@ -17,8 +17,6 @@ struct KeyframeCloudOptions {
   int mask_dilation_px = 4;           ///< dropped around what moves, whatever its depth
   int mask_margin_px = 8;             ///< dropped around what moves where the depth is alike
   double mask_margin_depth_m = 0.2;   ///< how alike
-  double max_piece_share = .12;       ///< of the image; larger pieces of surface are never loose
-  double max_looseness = .4;          ///< pieces above it are not mapped
   double unlabelled_confidence = .5;  ///< what "no label" counts, as a label's confidence
 
   template <class Self, class Visitor>
@@ -37,14 +35,6 @@ struct KeyframeCloudOptions {
           "pixels dropped around what moves where their depth is alike", Range{0, 100});
     visit("mask_margin_depth_m", self.mask_margin_depth_m,
           "depth difference that counts as alike [m]", Range{0, 10});
-    visit("max_piece_share", self.max_piece_share,
-          "larger pieces of surface are mapped whatever speaks against them [share of the image]",
-          Range{0, 1});
-    visit(
-        "max_looseness", self.max_looseness,
-        "small pieces of surface that other frames look through, or that masks or the image's "
-        "border cut off, are not mapped above this; lower is cleaner and less complete, 2 maps all",
-        Range{-2, 2});
     visit("unlabelled_confidence", self.unlabelled_confidence,
           "a pixel without label counts like a label of this confidence", Range{0, 1});
   }
@@ -68,6 +58,25 @@ struct OccupancyOptions {
     visit("probability_max", self.probability_max, "highest occupancy", Range{.501, .9999});
     visit("spare_neighbours", self.spare_neighbours,
           "rays do not free the neighbours of voxels that their own scan hits; OctoMap's do");
+  }
+};
+
+/// What may be a piece of somebody that no mask covers: see passing_voxels.h.
+struct PassingOptions {
+  double min_seen_s = 1;       ///< what was seen for so long is none; 0 = nothing is
+  int max_hits = 2;            ///< nor is what has more log-odds than so many hits give
+  double border_share = .025;  ///< of the image's width: along its border masks end too early
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("min_seen_s", self.min_seen_s,
+          "what is over or under somebody who moves, or seen at the image's border alone, is not "
+          "mapped unless it was seen for so long [s]; 0 = all is",
+          Range{0, 1000});
+    visit("max_hits", self.max_hits, "nor unless it is surer than so many hits make it",
+          Range{1, 100});
+    visit("border_share", self.border_share, "width of the border [share of the image's width]",
+          Range{0, .45});
   }
 };
 
@@ -179,6 +188,7 @@ struct DenseOptions {
   int max_spare_clouds = 1000;     ///< held of key frames that the map has let go
   KeyframeCloudOptions cloud;
   OccupancyOptions occupancy;
+  PassingOptions passing;
   OctreeOptions octree;
   CloudFileOptions cloud_file;
   NavigationOptions navigation;
@@ -202,6 +212,7 @@ struct DenseOptions {
           Range{0, 10000000});
     visit("cloud", self.cloud);
     visit("occupancy", self.occupancy);
+    visit("passing", self.passing);
     visit("octree", self.octree);
     visit("cloud_file", self.cloud_file);
     visit("navigation", self.navigation);

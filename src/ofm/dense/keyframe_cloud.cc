@@ -1,13 +1,16 @@
 #include "ofm/dense/keyframe_cloud.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "ofm/base/check.h"
 #include "ofm/camera/depth_noise.h"
-#include "ofm/dense/loose_pieces.h"
 #include "ofm/dense/usable_pixels.h"
 #include "ofm/dense/voxel_filter.h"
+#include "ofm/dense/voxel_table.h"
 
 namespace ofm {
 namespace {
@@ -36,6 +39,12 @@ int FindPixelStep(const LabelledFrame& frame, const PinholeCamera& camera) {
   return step;
 }
 
+/// Of the i-th frame of a cloud; the last bit serves all that are left.
+FrameBits BitOf(std::size_t i) {
+  constexpr std::size_t kBits = 32;
+  return FrameBits{1} << std::min(i, kBits - 1);
+}
+
 /// For images of every `step`-th pixel.
 KeyframeCloudOptions Coarsened(KeyframeCloudOptions options, int step) {
   options.mask_dilation_px = (options.mask_dilation_px + step - 1) / step;
@@ -43,11 +52,12 @@ KeyframeCloudOptions Coarsened(KeyframeCloudOptions options, int step) {
   return options;
 }
 
-cv::Mat Resized(const cv::Mat& image, cv::Size size) {
-  if (image.size() == size) return image;
-  cv::Mat resized;
-  cv::resize(image, resized, size, 0, 0, cv::INTER_NEAREST);
-  return resized;
+/// Of the frame's image, without its border if there are masks to end there too early.
+cv::Rect InnerPart(const LabelledFrame& frame, double border_share) {
+  const cv::Size size = frame.depth_m.size();
+  if (frame.dynamic_mask.empty()) return {{}, size};
+  const int border = static_cast<int>(std::lround(border_share * size.width));
+  return {border, border, size.width - 2 * border, size.height - 2 * border};
 }
 
 template <class T>
@@ -88,6 +98,15 @@ WorldScan TransformToWorld(const KeyframeCloud& cloud, const RigidTransform& wor
   return scan;
 }
 
+SeenSpan KeyframeCloud::SpanOf(FrameBits frames) const {
+  SeenSpan span;
+  for (; frames != 0; frames &= frames - 1) {
+    const std::int64_t stamp_ns = stamps_ns.at(std::countr_zero(frames));
+    span = span.Joined({stamp_ns, stamp_ns});
+  }
+  return span;
+}
+
 KeyframeCloudMaker::KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options)
     : camera_(camera), options_(options) {
   CheckOptions(options);
@@ -106,32 +125,18 @@ struct KeyframeCloudMaker::Gathered {
   explicit Gathered(const DenseOptions& options)
       : near(options.CloudResolution()), far(options.resolution_m) {}
 
-  VoxelFilter near, far;  // within the range, and the ends of rays that go beyond
+  VoxelFilter near, far;                 // within the range, and the ends of rays that go beyond
+  std::vector<FrameBits> seen_in;        // by voxel of `near`
+  std::vector<std::uint8_t> off_border;  // likewise
+  VoxelTable mover_voxels;
+  std::vector<FrameBits> movers_seen_in;  // by voxel
 };
 
-/// For each frame CV_8UC1 of its size, 255 where a pixel is mapped.
-std::vector<cv::Mat> KeyframeCloudMaker::FindUsable(std::span<const LabelledFrame> frames) const {
-  std::vector<cv::Mat> usable;
-  std::vector<PieceView> pieces;
-  const cv::Size size = frames.back().depth_m.size();  // of the views, if there are any
-  for (const LabelledFrame& frame : frames) {
-    const KeyframeCloudOptions options = Coarsened(options_.cloud, FindPixelStep(frame, camera_));
-    const cv::Mat dynamic = FindDynamicPixels(frame.dynamic_mask, frame.depth_m, options);
-    usable.push_back(FindSmoothPixels(frame.depth_m, options));
-    usable.back().setTo(0, dynamic);
-    pieces.push_back(
-        {Resized(frame.depth_m, size), Resized(dynamic, size), frame.keyframe_from_depth});
-  }
-  const std::vector<cv::Mat> loose = FindLoosePieces(pieces, camera_, rays_, options_.cloud);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    usable[i].setTo(0, Resized(loose[i], usable[i].size()));
-  }
-  return usable;
-}
-
-void KeyframeCloudMaker::Gather(const LabelledFrame& frame, const cv::Mat& usable,
+void KeyframeCloudMaker::Gather(const LabelledFrame& frame, FrameBits bit,
                                 Gathered& gathered) const {
   const int step = FindPixelStep(frame, camera_);
+  const cv::Mat usable = FindUsablePixels(frame, Coarsened(options_.cloud, step));
+  const cv::Rect inner = InnerPart(frame, options_.passing.border_share);
   const auto range = static_cast<float>(options_.range_m);
   const auto unlabelled =
       static_cast<std::uint8_t>(std::lround(255 * options_.cloud.unlabelled_confidence));
@@ -152,10 +157,46 @@ void KeyframeCloudMaker::Gather(const LabelledFrame& frame, const cv::Mat& usabl
       const Eigen::Vector3f point = Eigen::Vector3f(ray.x(), ray.y(), 1) * depth_m;
       const float distance = point.norm();
       if (distance <= range) {
-        gathered.near.Add(reader.At(column, rotation * point + origin, depth_m));
+        const auto voxel = gathered.near.Add(reader.At(column, rotation * point + origin, depth_m));
+        if (!voxel) continue;
+        if (*voxel == gathered.seen_in.size()) {
+          gathered.seen_in.push_back(0);
+          gathered.off_border.push_back(0);
+        }
+        gathered.seen_in[*voxel] |= bit;
+        if (inner.contains({column, row})) gathered.off_border[*voxel] = 1;
       } else {
         gathered.far.Add({rotation * (point * (range / distance)) + origin, {}, kNoLabel, 0});
       }
+    }
+  }
+}
+
+/// Where masks' rims do not reach: they are often a few pixels too large.
+void KeyframeCloudMaker::GatherMovers(const LabelledFrame& frame, FrameBits bit,
+                                      Gathered& gathered) const {
+  if (frame.dynamic_mask.empty()) return;
+  constexpr int kRim_px = 4, kStride_px = 4;  // of the camera's pixels
+  const int step = FindPixelStep(frame, camera_), rim = kRim_px / step;
+  cv::Mat moving;
+  cv::erode(frame.dynamic_mask, moving,
+            cv::getStructuringElement(cv::MORPH_RECT, {2 * rim + 1, 2 * rim + 1}));
+  const Eigen::Matrix3f rotation = frame.keyframe_from_depth.RotationMatrix().cast<float>();
+  const Eigen::Vector3f origin = frame.keyframe_from_depth.translation().cast<float>();
+  const int stride = std::max(1, kStride_px / step);
+  for (int row = 0; row < moving.rows; row += stride) {
+    for (int column = 0; column < moving.cols; column += stride) {
+      const float depth_m = frame.depth_m.at<float>(row, column);
+      if (moving.at<std::uint8_t>(row, column) == 0 || !(depth_m > 0)) continue;
+      const Eigen::Vector2f& ray =
+          rays_[(static_cast<std::size_t>(row) * camera_.width + column) * step];
+      const Eigen::Vector3f point = Eigen::Vector3f(ray.x(), ray.y(), 1) * depth_m;
+      if (!(point.norm() <= options_.range_m)) continue;
+      const auto voxel = FindVoxel(rotation * point + origin, 1 / KeyframeCloud::kMoverVoxel_m);
+      if (!voxel) continue;
+      const std::uint32_t number = gathered.mover_voxels.Insert(*voxel);
+      if (number == gathered.movers_seen_in.size()) gathered.movers_seen_in.push_back(0);
+      gathered.movers_seen_in[number] |= bit;
     }
   }
 }
@@ -165,9 +206,25 @@ KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& keyframe,
   Gathered gathered(options_);
   std::vector<LabelledFrame> frames{keyframe};
   frames.insert(frames.end(), views.begin(), views.end());
-  const std::vector<cv::Mat> usable = FindUsable(frames);
-  for (std::size_t i = 0; i < frames.size(); ++i) Gather(frames[i], usable[i], gathered);
-  KeyframeCloud cloud{gathered.near.Points(), {}};
+  KeyframeCloud cloud;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    Gather(frames[i], BitOf(i), gathered);
+    GatherMovers(frames[i], BitOf(i), gathered);
+    cloud.stamps_ns.resize(std::bit_width(BitOf(i)), frames[i].stamp_ns);
+  }
+  const std::vector<LabelledPoint> points = gathered.near.Points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const FrameBits seen_in = gathered.seen_in[i];
+    const bool was_long = cloud.SpanOf(seen_in).Seconds() >= options_.passing.min_seen_s;
+    if (gathered.off_border[i] == 0 && !was_long) continue;
+    cloud.points_in_camera.push_back(points[i]);
+    cloud.seen_in.push_back(seen_in);
+  }
+  for (std::uint32_t number = 0; number < gathered.mover_voxels.size(); ++number) {
+    cloud.movers_in_camera.push_back(
+        {VoxelCenter(gathered.mover_voxels.At(number), KeyframeCloud::kMoverVoxel_m),
+         gathered.movers_seen_in[number]});
+  }
   for (const LabelledPoint& end : gathered.far.Points()) {
     cloud.free_ends_in_camera.push_back(end.position);
   }

@@ -1,11 +1,15 @@
 // A key frame as a small labelled cloud.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "ofm/base/time.h"
 #include "ofm/camera/pinhole_camera.h"
 #include "ofm/dense/dense_options.h"
 #include "ofm/dense/labelled_frame.h"
@@ -15,12 +19,44 @@
 
 namespace ofm {
 
+/// A set of the frames that a key frame's cloud is made of: a bit per frame.
+using FrameBits = std::uint32_t;
+
+/// From the first to the last time that something was seen; empty where it never was.
+struct SeenSpan {
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
+
+  double Seconds() const {
+    return first_ns > last_ns ? 0 : NanosecondsToSeconds(last_ns - first_ns);
+  }
+  /// The least span that holds both.
+  SeenSpan Joined(const SeenSpan& other) const {
+    return {std::min(first_ns, other.first_ns), std::max(last_ns, other.last_ns)};
+  }
+};
+
+/// A place where something that moves was seen.
+struct MoverPoint {
+  Eigen::Vector3f position;  ///< [m]
+  FrameBits seen_in = 0;
+};
+
 /// What a key frame gives to the map, in its camera's frame: it stays good whatever becomes of the
 /// key frame's pose.
 struct KeyframeCloud {
   std::vector<LabelledPoint> points_in_camera;
   /// Ends, at the range limit, of the rays to points beyond it: they free and fill nothing [m].
   std::vector<Eigen::Vector3f> free_ends_in_camera;
+  /// When the frames were taken, by their bits; the key frame is the first.
+  std::vector<std::int64_t> stamps_ns = {};
+  /// One per voxel of kMoverVoxel_m, for passing_voxels.h.
+  std::vector<MoverPoint> movers_in_camera = {};
+  std::vector<FrameBits> seen_in = {};  ///< of each point
+
+  static constexpr double kMoverVoxel_m = .05;
+
+  SeenSpan SpanOf(FrameBits frames) const;
 };
 
 /// By key frame; shared, so that other threads can read them.
@@ -38,16 +74,17 @@ class KeyframeCloudMaker {
   /// Throws Error where an option is out of its range.
   KeyframeCloudMaker(const PinholeCamera& camera, const DenseOptions& options);
 
-  /// Back-projects the usable pixels (usable_pixels.h) but loose pieces (loose_pieces.h), lens
-  /// distortion undone, and keeps one point per voxel of CloudResolution(). `views` are frames from
-  /// nearby, for what the key frame does not show and to tell what moves in it.
+  /// Back-projects the usable pixels (usable_pixels.h), lens distortion undone, and keeps one point
+  /// per voxel of CloudResolution(). `views` are frames from nearby, for what the key frame does
+  /// not show. What frames with masks showed at their border alone is left out, unless it was seen
+  /// for PassingOptions::min_seen_s: masks often end before the border.
   KeyframeCloud Make(const LabelledFrame& keyframe,
                      std::span<const LabelledFrame> views = {}) const;
 
  private:
   struct Gathered;
-  std::vector<cv::Mat> FindUsable(std::span<const LabelledFrame> frames) const;
-  void Gather(const LabelledFrame& frame, const cv::Mat& usable, Gathered& gathered) const;
+  void Gather(const LabelledFrame& frame, FrameBits bit, Gathered& gathered) const;
+  void GatherMovers(const LabelledFrame& frame, FrameBits bit, Gathered& gathered) const;
 
   PinholeCamera camera_;
   DenseOptions options_;

@@ -126,29 +126,69 @@ TEST(KeyframeCloud, ViewsAddWhatIsHiddenInTheKeyframe) {
   }
 }
 
-/// Frames of a camera at rest, each half a second after the last; the first is a key frame.
-KeyframeCloud CloudOfThree(double speed_mps) {
+TEST(KeyframeCloud, TellsWhichFramesShowedAPointAndWhatMoves) {
   std::vector<LabelledFrame> frames;
   for (int i = 0; i < 3; ++i) {
-    const double x = -.6 + .5 * i * speed_mps;  // in no mask
-    const test::Box thing{{x - .06, -.1, 1.52}, {x + .06, .1, 1.53}, {10, 200, 10}};
-    frames.push_back(Render(SmallCamera(), {Wall(), Chair(), thing}, {}, KeyframeId(0)));
+    std::vector<test::Box> boxes{Wall(), Person(.5 * i)};
+    if (i == 2) boxes.push_back({{-.9, -.3, 2.02}, {-.5, .3, 2.3}, test::kRed});
+    frames.push_back(Render(SmallCamera(), boxes, {}, KeyframeId(0)));
+    frames.back().stamp_ns = 100 * i;
     if (i > 0) frames.back() = Coarse(frames.back());
   }
   const std::span all(frames);
-  return KeyframeCloudMaker(SmallCamera(), {}).Make(all[0], all.subspan(1));
+  const KeyframeCloud cloud = KeyframeCloudMaker(SmallCamera(), {}).Make(all[0], all.subspan(1));
+  EXPECT_EQ(cloud.stamps_ns, (std::vector<std::int64_t>{0, 100, 200}));
+  ASSERT_EQ(cloud.seen_in.size(), cloud.points_in_camera.size());
+  FrameBits all_points = 0;
+  for (std::size_t i = 0; i < cloud.seen_in.size(); ++i) {
+    ASSERT_NE(cloud.seen_in[i], 0u);
+    all_points |= cloud.seen_in[i];
+    if (cloud.points_in_camera[i].position.z() < 2.5) {
+      EXPECT_EQ(cloud.seen_in[i], 4u);
+    }
+  }
+  EXPECT_EQ(all_points, 7u);
+  ASSERT_GT(cloud.movers_in_camera.size(), 100u);
+  for (const MoverPoint& mover : cloud.movers_in_camera) {
+    EXPECT_NEAR(mover.position.z(), 1.52, .03);
+    const double x = mover.position.x();  // half a metre further right in each frame
+    EXPECT_EQ(mover.seen_in, x < .25 ? 1u : x < .75 ? 2u : 4u) << x;
+  }
 }
 
-TEST(KeyframeCloud, WhatMovesBetweenTheViewsIsLeftOutWithoutAMaskAndWhatRestsIsNot) {
-  const auto count = [](const KeyframeCloud& cloud, double near_m, double far_m) {
-    return std::ranges::count_if(cloud.points_in_camera, [&](const LabelledPoint& point) {
-      return point.position.z() > near_m && point.position.z() < far_m;
-    });
-  };
-  const KeyframeCloud moving = CloudOfThree(.5), resting = CloudOfThree(0);
-  EXPECT_EQ(count(moving, 1.4, 1.6), 0);
-  EXPECT_GT(count(resting, 1.4, 1.6), 20);
-  EXPECT_EQ(count(moving, 1.9, 2.1), count(resting, 1.9, 2.1));  // the chair
+TEST(KeyframeCloud, MoreFramesThanBitsShareTheLastOne) {
+  std::vector<LabelledFrame> frames;
+  for (int i = 0; i < 40; ++i) {
+    frames.push_back(Render(SmallCamera(), {Wall()}, {}, KeyframeId(0)));
+    frames.back().stamp_ns = i;
+  }
+  const std::span all(frames);
+  const KeyframeCloud cloud = KeyframeCloudMaker(SmallCamera(), {}).Make(all[0], all.subspan(1));
+  EXPECT_EQ(cloud.stamps_ns.size(), 32u);
+  EXPECT_EQ(cloud.seen_in.front(), ~FrameBits{0});
+}
+
+/// How far to the side of the image's centre points of the wall lie, in pixels, in a cloud of a
+/// frame and one view `interval_s` later.
+double WidestPoint(const LabelledFrame& frame, double interval_s) {
+  DenseOptions options;
+  options.passing.border_share = .1;
+  LabelledFrame view = frame;
+  view.stamp_ns += static_cast<std::int64_t>(1e9 * interval_s);
+  double most_px = 0;
+  for (const LabelledPoint& point :
+       KeyframeCloudMaker(SmallCamera(), options).Make(frame, {&view, 1}).points_in_camera) {
+    most_px = std::max(most_px, 130. * std::abs(point.position.x() / point.position.z()));
+  }
+  return most_px;
+}
+
+TEST(KeyframeCloud, WhatTheBorderAloneShowedIsLeftOutUnlessItWasSeenForLongOrThereAreNoMasks) {
+  LabelledFrame frame = Render(SmallCamera(), {Wall()}, RigidTransform(), KeyframeId(0));
+  EXPECT_NEAR(WidestPoint(frame, .3), 63.5, 1.5);  // 80 px less 16
+  EXPECT_NEAR(WidestPoint(frame, 1), 79, 1);       // a camera at rest maps its whole image
+  frame.dynamic_mask = cv::Mat();
+  EXPECT_NEAR(WidestPoint(frame, .3), 79, 1);
 }
 
 TEST(KeyframeCloud, LiesWhereTheCameraWasWhenItsDepthWasTaken) {

@@ -22,6 +22,7 @@ struct LabelledFrame {
   cv::Mat confidence;    ///< CV_8UC1, of the label, 255 = sure; empty where class_ids is
   cv::Mat dynamic_mask;  ///< CV_8UC1, 255 = moves; may be empty
   cv::Mat instances;     ///< CV_16UC1, a number within the frame, kNoInstance = none; may be empty
+  std::int64_t stamp_ns = 0;
 };
 
 }  // namespace ofm

@@ -4,6 +4,7 @@
 
 #include "ofm/base/check.h"
 #include "ofm/dense/octree_integrator.h"
+#include "ofm/dense/passing_voxels.h"
 #include "ofm/dense/surface_thinning.h"
 #include "ofm/dense/voxel_filter.h"
 
@@ -41,6 +42,7 @@ SemanticMap SemanticMapper::Complete(SemanticOctree octree,
                                      const KeyframePoseMap& world_from_camera,
                                      const InstanceObjects& objects) const {
   SemanticMap map{{}, std::move(octree)};
+  map.octree.Forget(FindPassingVoxels(map.octree, clouds_, world_from_camera, options_));
   ViewVoxelFilter filter(options_.CloudResolution());
   for (const auto& [id, cloud] : clouds_) {
     const auto pose = world_from_camera.find(id);
@@ -67,7 +69,10 @@ std::size_t SemanticMapper::MemoryBytes() const {
   std::size_t bytes = 0;
   for (const auto& [id, cloud] : clouds_) {
     bytes += sizeof(KeyframeCloud) + cloud->points_in_camera.capacity() * sizeof(LabelledPoint) +
-             cloud->free_ends_in_camera.capacity() * sizeof(Eigen::Vector3f);
+             cloud->free_ends_in_camera.capacity() * sizeof(Eigen::Vector3f) +
+             cloud->seen_in.capacity() * sizeof(FrameBits) +
+             cloud->movers_in_camera.capacity() * sizeof(MoverPoint) +
+             cloud->stamps_ns.capacity() * sizeof(std::int64_t);
   }
   return bytes;
 }

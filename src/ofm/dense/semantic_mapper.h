@@ -39,8 +39,8 @@ class SemanticMapper {
 
   /// Builds the whole map, key frames in the order of their ids. Key frames without a pose, or with
   /// one that is not usable (logged), are left out. The cloud keeps only points in voxels that are
-  /// occupied in the end: what later rays cleared is in neither. Its points are of an instance
-  /// where `objects` knows it.
+  /// occupied in the end: what later rays cleared is in neither, nor what was seen in passing
+  /// (passing_voxels.h). Its points are of an instance where `objects` knows it.
   SemanticMap Build(const KeyframePoseMap& world_from_camera,
                     const InstanceObjects& objects = {}) const;
   /// The same around the octree of these poses, which an OctreeIntegrator made.

@@ -178,6 +178,16 @@ void SemanticOctree::EndRebuild() {
   rebuilt_.reset();
 }
 
+void SemanticOctree::Forget(std::span<const VoxelIndex> voxels) {
+  for (const VoxelIndex& voxel : voxels) {
+    const std::optional<std::uint32_t> number = table_.Find(BlockOf(voxel));
+    if (!number) continue;
+    Block& block = blocks_[*number];
+    block.log_odds[CellOf(voxel)] = std::numeric_limits<float>::quiet_NaN();
+    block.surface[CellOf(voxel)] = 0;
+  }
+}
+
 bool SemanticOctree::empty() const {
   const auto is_known = [](float log_odds) { return !std::isnan(log_odds); };
   return std::none_of(blocks_.begin(), blocks_.end(), [&](const Block& block) {

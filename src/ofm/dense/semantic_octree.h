@@ -61,6 +61,9 @@ class SemanticOctree {
   void BeginRebuild(std::span<const std::uint32_t> blocks);
   void EndRebuild();
 
+  /// Makes voxels unknown, as if no ray had met them.
+  void Forget(std::span<const VoxelIndex> voxels);
+
   /// Empty where no ray has been, or outside the grid's limits.
   std::optional<SemanticVoxel> Find(const VoxelIndex& voxel) const;
   std::optional<SemanticVoxel> Find(const Eigen::Vector3f& position_in_world) const;

@@ -137,6 +137,24 @@ TEST(SemanticOctree, SomebodyWhoStoodThereIsClearedByRaysThatPass) {
   EXPECT_TRUE(octree.IsOccupied(wall));
 }
 
+TEST(SemanticOctree, AForgottenVoxelIsUnknownAndItsNeighboursAreNot) {
+  SemanticOctree octree(.1, {});
+  const Eigen::Vector3f here(.05f, .05f, 1.05f), beside(.15f, .05f, 1.05f);
+  WorldScan scan{Eigen::Vector3f(.05f, .05f, .05f), {}, {}};
+  for (const Eigen::Vector3f& place : {here, beside}) {
+    scan.points.push_back({place, {200, 20, 30}, 7, 200});
+  }
+  octree.InsertScan(scan);
+  ASSERT_TRUE(octree.IsOccupied(here));
+  const std::vector<VoxelIndex> forgotten{{0, 0, 10}, {500, 0, 0}};  // the second never was known
+  octree.Forget(forgotten);
+  EXPECT_FALSE(octree.Find(here));
+  EXPECT_TRUE(octree.IsOccupied(beside));
+  octree.InsertScan(scan);
+  EXPECT_EQ(octree.Find(here)->log_odds, octree.Find(beside)->log_odds / 2);
+  EXPECT_EQ(octree.Find(here)->class_id, 7);
+}
+
 TEST(SemanticOctree, RaysToFreeEndsFillNothing) {
   SemanticOctree octree(kResolution_m, {});
   octree.InsertScan({kOrigin, {}, {kEnd}});

@@ -46,7 +46,8 @@ inline LabelledFrame Render(const PinholeCamera& camera, const std::vector<Box>&
                       cv::Mat(size, CV_8UC1, cv::Scalar(kNoLabel)),
                       cv::Mat(size, CV_8UC1, cv::Scalar(0)),
                       cv::Mat(size, CV_8UC1, cv::Scalar(0)),
-                      {}};
+                      {},
+                      0};
   for (int row = 0; row < size.height; ++row) {
     for (int column = 0; column < size.width; ++column) {
       const Eigen::Vector3d ray =

@@ -8,11 +8,12 @@ void InstanceVotes::Add(std::uint16_t instance) {
 }
 
 template <class Labels, class Weight>
-void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point,
-                                           const Eigen::Vector3f& viewpoint) {
+std::optional<std::uint32_t> BasicVoxelFilter<Labels, Weight>::Add(
+    const LabelledPoint& point, const Eigen::Vector3f& viewpoint) {
   const std::optional<VoxelIndex> voxel = FindVoxel(point.position, voxels_per_metre_);
-  if (!voxel) return;
-  Sum& sum = sums_[NumberOf(*voxel)];
+  if (!voxel) return {};
+  const std::uint32_t number = NumberOf(*voxel);
+  Sum& sum = sums_[number];
   sum.position += static_cast<double>(point.precision) * point.position.template cast<double>();
   sum.viewpoint += static_cast<double>(point.precision) * viewpoint.template cast<double>();
   sum.color += Eigen::Vector3i(point.color.r, point.color.g, point.color.b);
@@ -20,6 +21,7 @@ void BasicVoxelFilter<Labels, Weight>::Add(const LabelledPoint& point,
   ++sum.count;
   sum.labels.Add(point.class_id, weight_(point));
   sum.instances.Add(point.instance);
+  return number;
 }
 
 /// Neighbours in an image are often of one voxel, so the last one is looked at first.

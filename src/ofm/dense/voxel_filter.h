@@ -1,6 +1,8 @@
 // Voxel-grid down-sampling of labelled clouds.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "ofm/dense/label_belief.h"
@@ -44,9 +46,11 @@ class BasicVoxelFilter {
   explicit BasicVoxelFilter(double resolution_m)
       : voxels_per_metre_(1 / resolution_m), weight_(resolution_m) {}
 
-  /// Points that are not finite or beyond the grid's limits are left out. `viewpoint` is where the
-  /// point was seen from.
-  void Add(const LabelledPoint& point, const Eigen::Vector3f& viewpoint = Eigen::Vector3f::Zero());
+  /// Points that are not finite or beyond the grid's limits are left out, and nothing is given.
+  /// Else the number of the point's voxel, from 0 in the order in which they were first met.
+  /// `viewpoint` is where the point was seen from.
+  std::optional<std::uint32_t> Add(const LabelledPoint& point,
+                                   const Eigen::Vector3f& viewpoint = Eigen::Vector3f::Zero());
 
   /// One point per voxel, in the order in which the voxels were first met.
   std::vector<LabelledPoint> Points() const;

@@ -11,6 +11,7 @@ namespace ofm {
 LabelledFrame MakeLabelledFrame(const PreparedFrame& prepared,
                                 const RigidTransform& depth_from_color) {
   LabelledFrame labelled;
+  labelled.stamp_ns = prepared.frame.stamp_ns;
   labelled.keyframe_from_depth = depth_from_color.Inverse();
   const LabelImage labels = ComposeLabelImage(prepared.segmentation, prepared.frame.color.size());
   labelled.color = prepared.frame.color;

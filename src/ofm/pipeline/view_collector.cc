@@ -21,6 +21,7 @@ cv::Mat Coarse(const cv::Mat& image) {
 /// What the map needs of a frame, coarser.
 PreparedFrame Coarse(const PreparedFrame& prepared) {
   PreparedFrame coarse;
+  coarse.frame.stamp_ns = prepared.frame.stamp_ns;
   coarse.frame.color = Coarse(prepared.frame.color);
   coarse.frame.depth_m = Coarse(prepared.frame.depth_m);
   coarse.dynamic.mask = Coarse(prepared.dynamic.mask);

@@ -14,6 +14,7 @@ constexpr int kWidth = 8, kHeight = 6;
 /// Grey, at 2 m, but for the last column, where an instance of class 3 moves.
 PreparedFrame MakeFrame() {
   PreparedFrame prepared;
+  prepared.frame.stamp_ns = 33;
   prepared.frame.color = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(90));
   prepared.frame.depth_m = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(2));
   const cv::Rect box(6, 0, 2, kHeight);
@@ -74,7 +75,7 @@ TEST_F(ViewCollectorTest, ViewsFollowTheirReferenceWhenItIsMoved) {
   EXPECT_NEAR(Take(collector).at(0).keyframe_from_depth.translation().x(), .42 - .5, 1e-12);
 }
 
-TEST_F(ViewCollectorTest, ImagesAreCoarserAndKeepLabelsAndMask) {
+TEST_F(ViewCollectorTest, ImagesAreCoarserAndKeepStampLabelsAndMask) {
   ViewCollector collector(1);
   collector.Add(MakeFrame(), Tracked());
   const LabelledFrame view = Take(collector).at(0);
@@ -83,6 +84,7 @@ TEST_F(ViewCollectorTest, ImagesAreCoarserAndKeepLabelsAndMask) {
                                &view.instances, &view.dynamic_mask}) {
     EXPECT_EQ(image->size(), size);
   }
+  EXPECT_EQ(view.stamp_ns, 33);
   EXPECT_EQ(view.depth_m.at<float>(1, 1), 2);
   for (int column = 0; column < size.width; ++column) {
     const bool on_instance = column == 3;
