@@ -212,14 +212,9 @@ KeyframeCloud KeyframeCloudMaker::Make(const LabelledFrame& keyframe,
     GatherMovers(frames[i], BitOf(i), gathered);
     cloud.stamps_ns.resize(std::bit_width(BitOf(i)), frames[i].stamp_ns);
   }
-  const std::vector<LabelledPoint> points = gathered.near.Points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const FrameBits seen_in = gathered.seen_in[i];
-    const bool was_long = cloud.SpanOf(seen_in).Seconds() >= options_.passing.min_seen_s;
-    if (gathered.off_border[i] == 0 && !was_long) continue;
-    cloud.points_in_camera.push_back(points[i]);
-    cloud.seen_in.push_back(seen_in);
-  }
+  cloud.points_in_camera = gathered.near.Points();
+  cloud.seen_in = std::move(gathered.seen_in);
+  cloud.off_border = std::move(gathered.off_border);
   for (std::uint32_t number = 0; number < gathered.mover_voxels.size(); ++number) {
     cloud.movers_in_camera.push_back(
         {VoxelCenter(gathered.mover_voxels.At(number), KeyframeCloud::kMoverVoxel_m),

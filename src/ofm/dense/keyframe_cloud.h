@@ -53,6 +53,9 @@ struct KeyframeCloud {
   /// One per voxel of kMoverVoxel_m, for passing_voxels.h.
   std::vector<MoverPoint> movers_in_camera = {};
   std::vector<FrameBits> seen_in = {};  ///< of each point
+  /// Of each point, not 0 where a frame showed it off its border (PassingOptions::border_share), or
+  /// one without masks anywhere.
+  std::vector<std::uint8_t> off_border = {};
 
   static constexpr double kMoverVoxel_m = .05;
 
@@ -76,8 +79,7 @@ class KeyframeCloudMaker {
 
   /// Back-projects the usable pixels (usable_pixels.h), lens distortion undone, and keeps one point
   /// per voxel of CloudResolution(). `views` are frames from nearby, for what the key frame does
-  /// not show. What frames with masks showed at their border alone is left out, unless it was seen
-  /// for PassingOptions::min_seen_s: masks often end before the border.
+  /// not show.
   KeyframeCloud Make(const LabelledFrame& keyframe,
                      std::span<const LabelledFrame> views = {}) const;
 

@@ -168,27 +168,31 @@ TEST(KeyframeCloud, MoreFramesThanBitsShareTheLastOne) {
   EXPECT_EQ(cloud.seen_in.front(), ~FrameBits{0});
 }
 
-/// How far to the side of the image's centre points of the wall lie, in pixels, in a cloud of a
-/// frame and one view `interval_s` later.
-double WidestPoint(const LabelledFrame& frame, double interval_s) {
+TEST(KeyframeCloud, TellsWhatWasSeenOffTheBorderWhereThereAreMasks) {
   DenseOptions options;
   options.passing.border_share = .1;
-  LabelledFrame view = frame;
-  view.stamp_ns += static_cast<std::int64_t>(1e9 * interval_s);
-  double most_px = 0;
-  for (const LabelledPoint& point :
-       KeyframeCloudMaker(SmallCamera(), options).Make(frame, {&view, 1}).points_in_camera) {
-    most_px = std::max(most_px, 130. * std::abs(point.position.x() / point.position.z()));
+  const KeyframeCloudMaker maker(SmallCamera(), options);
+  LabelledFrame frame = Render(SmallCamera(), {Wall()}, RigidTransform(), KeyframeId(0));
+  const KeyframeCloud cloud = maker.Make(frame);
+  ASSERT_EQ(cloud.off_border.size(), cloud.points_in_camera.size());
+  for (std::size_t i = 0; i < cloud.off_border.size(); ++i) {
+    const Eigen::Vector2f px = 130 * cloud.points_in_camera[i].position.head<2>() / 3.02f;
+    const double inside_px = std::min(63.5 - std::abs(px.x()), 43.5 - std::abs(px.y()));
+    if (std::abs(inside_px) > 1.5) {
+      EXPECT_EQ(cloud.off_border[i], inside_px > 0) << px;
+    }
   }
-  return most_px;
+  frame.dynamic_mask = cv::Mat();
+  EXPECT_TRUE(std::ranges::all_of(maker.Make(frame).off_border, [](int is_off) { return is_off; }));
 }
 
-TEST(KeyframeCloud, WhatTheBorderAloneShowedIsLeftOutUnlessItWasSeenForLongOrThereAreNoMasks) {
-  LabelledFrame frame = Render(SmallCamera(), {Wall()}, RigidTransform(), KeyframeId(0));
-  EXPECT_NEAR(WidestPoint(frame, .3), 63.5, 1.5);  // 80 px less 16
-  EXPECT_NEAR(WidestPoint(frame, 1), 79, 1);       // a camera at rest maps its whole image
-  frame.dynamic_mask = cv::Mat();
-  EXPECT_NEAR(WidestPoint(frame, .3), 79, 1);
+TEST(KeyframeCloud, ASpanReachesFromTheFirstFrameOfASetToTheLast) {
+  KeyframeCloud cloud;
+  cloud.stamps_ns = {900'000'000, 100'000'000, 400'000'000};  // the key frame is the last in time
+  EXPECT_DOUBLE_EQ(cloud.SpanOf(0b111).Seconds(), .8);
+  EXPECT_DOUBLE_EQ(cloud.SpanOf(0b110).Seconds(), .3);
+  EXPECT_EQ(cloud.SpanOf(0b100).Seconds(), 0);
+  EXPECT_EQ(cloud.SpanOf(0).Seconds(), 0);
 }
 
 TEST(KeyframeCloud, LiesWhereTheCameraWasWhenItsDepthWasTaken) {

@@ -29,11 +29,8 @@ MapMetricsMeter MeterOf(const std::vector<LabelledFrame>& frames) {
   return meter;
 }
 
-/// All frames are of one moment, so nothing is left out for having been seen too shortly.
 std::unique_ptr<octomap::ColorOcTree> MapOf(const std::vector<LabelledFrame>& frames) {
-  DenseOptions options;
-  options.passing.min_seen_s = 0;
-  SemanticMapper mapper(SmallCamera(), options);
+  SemanticMapper mapper(SmallCamera(), {});
   std::map<KeyframeId, RigidTransform> poses;
   for (const LabelledFrame& frame : frames) {
     mapper.AddKeyframe(frame);

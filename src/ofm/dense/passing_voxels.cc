@@ -35,12 +35,14 @@ class Columns {
     axes_.row(1) = up.cast<float>().cross(axes_.row(0).transpose());
   }
 
-  void Add(const Eigen::Vector3f& position_in_world, FrameBits seen_in) {
-    const auto cell = CellOf(position_in_world);
-    if (!cell) return;
-    const std::uint32_t number = cells_.Insert(*cell);
-    if (number == seen_in_.size()) seen_in_.push_back(0);
-    seen_in_[number] |= seen_in;
+  void Add(const std::vector<MoverPoint>& movers, const RigidTransform& world_from_movers) {
+    for (const MoverPoint& mover : movers) {
+      const auto cell = CellOf((world_from_movers * mover.position.cast<double>()).cast<float>());
+      if (!cell) continue;
+      const std::uint32_t number = cells_.Insert(*cell);
+      if (number == seen_in_.size()) seen_in_.push_back(0);
+      seen_in_[number] |= mover.seen_in;
+    }
   }
 
   FrameBits At(const Eigen::Vector3f& position_in_world) const {
@@ -66,6 +68,7 @@ class Columns {
 struct Sighting {
   SeenSpan span;
   bool beside_mover = false;
+  bool off_border = false;
 };
 
 /// How the clouds' points in each voxel were seen.
@@ -74,11 +77,9 @@ class SightingTable {
   explicit SightingTable(double resolution_m) : voxels_per_metre_(1 / resolution_m) {}
 
   void Add(const KeyframeCloud& cloud, const RigidTransform& world_from_camera,
-           const Eigen::Vector3d& up_in_world) {
-    Columns columns(up_in_world);
-    for (const MoverPoint& mover : cloud.movers_in_camera) {
-      columns.Add((world_from_camera * mover.position.cast<double>()).cast<float>(), mover.seen_in);
-    }
+           const std::optional<Eigen::Vector3d>& up_in_world) {
+    Columns columns(up_in_world.value_or(Eigen::Vector3d::UnitZ()));
+    if (up_in_world) columns.Add(cloud.movers_in_camera, world_from_camera);
     const std::vector<LabelledPoint> points = TransformToWorld(cloud, world_from_camera).points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto voxel = FindVoxel(points[i].position, voxels_per_metre_);
@@ -87,6 +88,7 @@ class SightingTable {
       if (number == sightings_.size()) sightings_.emplace_back();
       Sighting& sighting = sightings_[number];
       sighting.span = sighting.span.Joined(cloud.SpanOf(cloud.seen_in[i]));
+      if (cloud.off_border[i] != 0) sighting.off_border = true;
       if ((columns.At(points[i].position) & cloud.seen_in[i]) != 0) sighting.beside_mover = true;
     }
   }
@@ -113,23 +115,19 @@ std::vector<VoxelIndex> FindPassingVoxels(const SemanticOctree& octree,
                                           const KeyframeClouds& clouds,
                                           const KeyframePoseMap& world_from_camera,
                                           const DenseOptions& options) {
-  const bool anything_moves = std::any_of(clouds.begin(), clouds.end(), [](const auto& entry) {
-    return !entry.second->movers_in_camera.empty();
-  });
-  if (!anything_moves || options.passing.min_seen_s == 0) return {};
+  if (options.passing.min_seen_s == 0) return {};
   const auto up = FindVertical(octree, world_from_camera, options.navigation.floor);
-  if (!up) return {};
   SightingTable table(octree.resolution_m());
   for (const auto& [id, cloud] : clouds) {
     const auto pose = world_from_camera.find(id);
     if (pose == world_from_camera.end() || !IsUsablePose(pose->second, options)) continue;
-    table.Add(*cloud, pose->second, *up);
+    table.Add(*cloud, pose->second, up);
   }
   const double hit =
       std::log(options.occupancy.probability_hit / (1 - options.occupancy.probability_hit));
   constexpr double kRounding = 1e-3;
   return table.Select([&](const VoxelIndex& voxel, const Sighting& sighting) {
-    if (!sighting.beside_mover) return false;
+    if (!sighting.beside_mover && sighting.off_border) return false;
     if (sighting.span.Seconds() >= options.passing.min_seen_s) return false;
     const auto known = octree.Find(voxel);
     return known && known->IsOccupied() &&

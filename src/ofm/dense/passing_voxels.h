@@ -11,11 +11,12 @@
 namespace ofm {
 
 /// Occupied voxels that probably are of something that moves and that no mask covered there, as
-/// feet under a table: in a frame that showed them something that moves was straight over or under
-/// them (KeyframeCloud::movers_in_camera), all frames that showed them lie within less than
-/// PassingOptions::min_seen_s, and few key frames hit them. `octree` is that of these clouds at
-/// these poses; each voxel is given once. Nothing is found where it has no large horizontal plane
-/// that tells the vertical.
+/// feet under a table or an arm at the image's border: all frames that showed them lie within less
+/// than PassingOptions::min_seen_s, few key frames hit them, and either something that moves was
+/// straight over or under them in one of these frames (KeyframeCloud::movers_in_camera), or all
+/// showed them at their border, which masks often do not reach. `octree` is that of these clouds at
+/// these poses; each voxel is given once. Where it has no large horizontal plane the vertical is
+/// not known, and the border alone counts.
 std::vector<VoxelIndex> FindPassingVoxels(const SemanticOctree& octree,
                                           const KeyframeClouds& clouds,
                                           const KeyframePoseMap& world_from_camera,

@@ -70,7 +70,7 @@ std::size_t SemanticMapper::MemoryBytes() const {
   for (const auto& [id, cloud] : clouds_) {
     bytes += sizeof(KeyframeCloud) + cloud->points_in_camera.capacity() * sizeof(LabelledPoint) +
              cloud->free_ends_in_camera.capacity() * sizeof(Eigen::Vector3f) +
-             cloud->seen_in.capacity() * sizeof(FrameBits) +
+             cloud->seen_in.capacity() * sizeof(FrameBits) + cloud->off_border.capacity() +
              cloud->movers_in_camera.capacity() * sizeof(MoverPoint) +
              cloud->stamps_ns.capacity() * sizeof(std::int64_t);
   }

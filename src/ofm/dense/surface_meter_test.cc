@@ -19,9 +19,7 @@ LabelledFrame Look(const std::vector<test::Box>& boxes, int frame) {
 }
 
 SemanticMap MapOf(const std::vector<test::Box>& boxes, const RigidTransform& error = {}) {
-  DenseOptions options;
-  options.passing.min_seen_s = 0;  // all frames are of one moment
-  SemanticMapper mapper(SmallCamera(), options);
+  SemanticMapper mapper(SmallCamera(), {});
   KeyframePoseMap poses;
   for (int i = 0; i < kFrames; ++i) {
     const LabelledFrame frame = Look(boxes, i);
