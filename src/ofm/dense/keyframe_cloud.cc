@@ -172,7 +172,7 @@ void KeyframeCloudMaker::Gather(const LabelledFrame& frame, FrameBits bit,
   }
 }
 
-/// Where masks' rims do not reach: they are often a few pixels too large.
+/// What moves, but for the masks' rims: masks are often a few pixels too large.
 void KeyframeCloudMaker::GatherMovers(const LabelledFrame& frame, FrameBits bit,
                                       Gathered& gathered) const {
   if (frame.dynamic_mask.empty()) return;
