@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 #include "ofm/base/random.h"
 
@@ -123,6 +124,15 @@ std::optional<Plane> FindFloor(std::span<const Eigen::Vector3f> surface_in_world
                                const FloorOptions& options) {
   if (surface_in_world.size() < 3) return {};
   return FloorSearch(surface_in_world, up_in_world, resolution_m, options).Find();
+}
+
+std::optional<Plane> FindFloor(const SemanticOctree& octree, const Eigen::Vector3d& up_in_world,
+                               const FloorOptions& options) {
+  std::vector<Eigen::Vector3f> surface;
+  octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
+    if (voxel.IsOccupied()) surface.push_back(VoxelCenter(index, octree.resolution_m()));
+  });
+  return FindFloor(surface, up_in_world, octree.resolution_m(), options);
 }
 
 }  // namespace ofm

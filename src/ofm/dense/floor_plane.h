@@ -8,6 +8,7 @@
 
 #include "ofm/base/ids.h"
 #include "ofm/dense/dense_options.h"
+#include "ofm/dense/semantic_octree.h"
 #include "ofm/geometry/rigid_transform.h"
 
 namespace ofm {
@@ -30,6 +31,9 @@ Eigen::Vector3d MeanUp(const std::map<KeyframeId, RigidTransform>& world_from_ca
 /// least squares. Empty where there is none. The same input gives the same plane.
 std::optional<Plane> FindFloor(std::span<const Eigen::Vector3f> surface_in_world,
                                const Eigen::Vector3d& up_in_world, double resolution_m,
+                               const FloorOptions& options);
+/// The same among the octree's occupied voxels.
+std::optional<Plane> FindFloor(const SemanticOctree& octree, const Eigen::Vector3d& up_in_world,
                                const FloorOptions& options);
 
 }  // namespace ofm

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <limits>
-#include <vector>
 
 #include "ofm/io/atomic_file.h"
 
@@ -83,12 +82,7 @@ NavigationGrid CutNavigationGrid(const SemanticOctree& octree, const Plane& floo
 std::optional<NavigationGrid> MakeNavigationGrid(const SemanticOctree& octree,
                                                  const Eigen::Vector3d& up_in_world,
                                                  const NavigationOptions& options) {
-  std::vector<Eigen::Vector3f> surface;
-  octree.ForEach([&](const VoxelIndex& index, const SemanticVoxel& voxel) {
-    if (voxel.IsOccupied()) surface.push_back(VoxelCenter(index, octree.resolution_m()));
-  });
-  const std::optional<Plane> floor =
-      FindFloor(surface, up_in_world, octree.resolution_m(), options.floor);
+  const std::optional<Plane> floor = FindFloor(octree, up_in_world, options.floor);
   if (!floor) return {};
   return CutNavigationGrid(octree, *floor, options);
 }

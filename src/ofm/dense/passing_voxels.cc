@@ -13,16 +13,18 @@
 namespace ofm {
 namespace {
 
-/// The normal of the largest plane that is horizontal by what the cameras think is up.
+/// The normal of the largest plane that is horizontal by what the cameras think is up; empty where
+/// there is none, or where nothing moves and nobody asks.
 std::optional<Eigen::Vector3d> FindVertical(const SemanticOctree& octree,
+                                            const KeyframeClouds& clouds,
                                             const KeyframePoseMap& world_from_camera,
                                             FloorOptions options) {
-  options.max_share_beneath = 1;  // a desk tells the vertical as well as a floor does
-  std::vector<Eigen::Vector3f> surface;
-  octree.ForEach([&](const VoxelIndex& voxel, const SemanticVoxel& known) {
-    if (known.IsOccupied()) surface.push_back(VoxelCenter(voxel, octree.resolution_m()));
+  const bool nothing_moves = std::all_of(clouds.begin(), clouds.end(), [](const auto& entry) {
+    return entry.second->movers_in_camera.empty();
   });
-  const auto plane = FindFloor(surface, MeanUp(world_from_camera), octree.resolution_m(), options);
+  if (nothing_moves) return {};
+  options.max_share_beneath = 1;  // a desk tells the vertical as well as a floor does
+  const auto plane = FindFloor(octree, MeanUp(world_from_camera), options);
   if (!plane) return {};
   return plane->normal;
 }
@@ -116,7 +118,7 @@ std::vector<VoxelIndex> FindPassingVoxels(const SemanticOctree& octree,
                                           const KeyframePoseMap& world_from_camera,
                                           const DenseOptions& options) {
   if (options.passing.min_seen_s == 0) return {};
-  const auto up = FindVertical(octree, world_from_camera, options.navigation.floor);
+  const auto up = FindVertical(octree, clouds, world_from_camera, options.navigation.floor);
   SightingTable table(octree.resolution_m());
   for (const auto& [id, cloud] : clouds) {
     const auto pose = world_from_camera.find(id);
