@@ -73,10 +73,29 @@ struct BundleState {
     }
   }
 
+  std::vector<RigidTransform> CameraFromWorld() const {
+    std::vector<RigidTransform> result;
+    result.reserve(poses.size());
+    for (const auto& [rotation, translation] : poses) result.emplace_back(rotation, translation);
+    return result;
+  }
+
   Eigen::Vector3d PointInCamera(const BundleProblem::Observation& o) const {
     return poses[o.pose].rotation * points[o.point] + poses[o.pose].translation;
   }
 };
+
+/// The problem without the depths that parallax contradicts in `state`.
+BundleProblem Vetted(const PinholeCamera& camera, const BundleProblem& problem,
+                     const BundleState& state, const DepthVettingOptions& options) {
+  const std::vector<char> contradicted = FindContradictedDepths(
+      camera, state.CameraFromWorld(), state.points, problem.observations, options);
+  BundleProblem vetted = problem;
+  for (auto& o : vetted.observations) {
+    if (contradicted[o.point]) o.seen.depth_m = 0;
+  }
+  return vetted;
+}
 
 /// Chi-squares of all observations.
 std::vector<double> ChiSquares(const PinholeCamera& camera, const BundleProblem& problem,
@@ -212,36 +231,38 @@ class StageSolver {
 BundleResult AdjustBundle(const PinholeCamera& camera, const BundleProblem& problem,
                           const BundleOptions& options, std::stop_token stop) {
   CheckInput(problem, options);
-  const auto& observations = problem.observations;
   BundleState state(problem);
+  BundleProblem vetted = Vetted(camera, problem, state, options.depth_vetting);
   BundleResult result;
-  std::vector<double> chi2 = ChiSquares(camera, problem, state);
-  result.initial_cost = RobustCost(problem, chi2);
+  std::vector<double> chi2 = ChiSquares(camera, vetted, state);
+  result.initial_cost = RobustCost(vetted, chi2);
 
+  const auto is_inlier = [&](std::size_t i) {
+    return chi2[i] <= ChiSquareGate(vetted.observations[i].seen);
+  };
   result.usable = true;
   for (const Stage stage : {Stage::kRobust, Stage::kFinal}) {
-    const ceres::Solver::Options solver_options = SolverOptions(problem, options, stage);
+    const ceres::Solver::Options solver_options = SolverOptions(vetted, options, stage);
     if (stop.stop_requested() || !result.usable || solver_options.max_num_iterations == 0) continue;
     const auto is_good = [&](std::size_t i) {
-      return stage == Stage::kRobust ? std::isfinite(chi2[i])
-                                     : chi2[i] <= ChiSquareGate(observations[i].seen);
+      return stage == Stage::kRobust ? std::isfinite(chi2[i]) : is_inlier(i);
     };
-    StageSolver solver(camera, problem, stage, ChooseActive(problem, is_good), state);
+    StageSolver solver(camera, vetted, stage, ChooseActive(vetted, is_good), state);
     result.usable = solver.Solve(solver_options, stop);
-    chi2 = ChiSquares(camera, problem, state);
+    if (stage == Stage::kRobust) vetted = Vetted(camera, problem, state, options.depth_vetting);
+    chi2 = ChiSquares(camera, vetted, state);
   }
   result.usable = result.usable && !stop.stop_requested();
-  result.final_cost = RobustCost(problem, chi2);
+  result.final_cost = RobustCost(vetted, chi2);
 
+  result.camera_from_world = state.CameraFromWorld();
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     const auto& [camera_from_world, fixed] = problem.poses[i];
-    const auto& [rotation, translation] = state.poses[i];
-    result.camera_from_world.push_back(fixed ? camera_from_world
-                                             : RigidTransform(rotation, translation));
+    if (fixed) result.camera_from_world[i] = camera_from_world;
   }
   result.points_in_world = std::move(state.points);
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    result.inlier.push_back(chi2[i] <= ChiSquareGate(observations[i].seen));
+  for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+    result.inlier.push_back(is_inlier(i));
   }
   return result;
 }

@@ -149,6 +149,31 @@ TEST(BundleAdjustment, DepthGivesTheScaleThatColourAloneCannotKnow) {
   EXPECT_NEAR(error_of(without), InitialPositionError_m(without), 1e-6);
 }
 
+TEST(BundleAdjustment, DepthsOfWhatIsBehindASilhouetteDoNotStretchTheMap) {
+  // As of a structured-light camera, but with sigmas that let the wrong depths pass the gate.
+  constexpr double kDepthSigma = 0.03;
+  BundleWorld world =
+      MakeWorld({.fixed_poses = 1, .depths = Depths::kAll, .noise = {.factor = 0.3}});
+  for (auto& o : world.problem.observations) {
+    o.seen.inverse_depth_sigma = kDepthSigma;
+    if (o.point % 10 == 0) o.seen.depth_m *= 1.15;
+  }
+  BundleOptions believing = kThorough;
+  believing.depth_vetting.max_residual = 1e6;
+  const BundleResult stretched = AdjustBundle(world.camera, world.problem, believing);
+  const BundleResult vetted = AdjustBundle(world.camera, world.problem, kThorough);
+  EXPECT_LT(test::PositionError_m(world, vetted.camera_from_world),
+            0.5 * test::PositionError_m(world, stretched.camera_from_world));
+  // Their pixels are as good as any.
+  int kept = 0, all = 0;
+  for (std::size_t i = 0; i < vetted.inlier.size(); ++i) {
+    if (world.problem.observations[i].point % 10 != 0) continue;
+    kept += vetted.inlier[i];
+    ++all;
+  }
+  EXPECT_GT(kept, 0.9 * all);
+}
+
 TEST(BundleAdjustment, WithoutAFixedPoseTheRelativePosesAreFound) {
   const BundleWorld world = MakeWorld({.fixed_poses = 0, .noise = {.factor = 0}});
   const BundleResult result = AdjustBundle(world.camera, world.problem, kThorough);
