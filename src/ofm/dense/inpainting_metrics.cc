@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ofm/base/check.h"
+#include "ofm/base/median.h"
 
 namespace ofm {
 
@@ -35,10 +36,7 @@ InpaintingMetrics InpaintingMeter::metrics() const {
   if (hidden_ > 0)
     metrics.filled_share = static_cast<double>(filled_) / static_cast<double>(hidden_);
   if (!depth_errors_m_.empty()) {
-    std::vector<float> errors_m = depth_errors_m_;
-    const auto middle = errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2);
-    std::nth_element(errors_m.begin(), middle, errors_m.end());
-    metrics.median_depth_error_m = *middle;
+    metrics.median_depth_error_m = UpperMedian(depth_errors_m_);
   }
   if (filled_ > 0) {
     const double mean_square = squared_color_error_ / (3. * static_cast<double>(filled_));

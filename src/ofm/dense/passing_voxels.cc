@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "ofm/dense/floor_plane.h"
+#include "ofm/dense/log_odds.h"
 #include "ofm/dense/octree_integrator.h"
 #include "ofm/dense/voxel_table.h"
 
@@ -125,8 +125,7 @@ std::vector<VoxelIndex> FindPassingVoxels(const SemanticOctree& octree,
     if (pose == world_from_camera.end() || !IsUsablePose(pose->second, options)) continue;
     table.Add(*cloud, pose->second, up);
   }
-  const double hit =
-      std::log(options.occupancy.probability_hit / (1 - options.occupancy.probability_hit));
+  const double hit = LogOdds(options.occupancy.probability_hit);
   constexpr double kRounding = 1e-3;
   return table.Select([&](const VoxelIndex& voxel, const Sighting& sighting) {
     if (!sighting.beside_mover && sighting.off_border) return false;

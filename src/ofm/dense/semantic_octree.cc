@@ -5,16 +5,13 @@
 #include <limits>
 
 #include "ofm/base/check.h"
+#include "ofm/dense/log_odds.h"
 #include "ofm/dense/voxel_ray.h"
 
 namespace ofm {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-float LogOdds(double probability) {
-  return static_cast<float>(std::log(probability / (1 - probability)));
-}
 
 std::uint8_t ToByte(float value) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
@@ -183,7 +180,7 @@ void SemanticOctree::Forget(std::span<const VoxelIndex> voxels) {
     const std::optional<std::uint32_t> number = table_.Find(BlockOf(voxel));
     if (!number) continue;
     Block& block = blocks_[*number];
-    block.log_odds[CellOf(voxel)] = std::numeric_limits<float>::quiet_NaN();
+    block.log_odds[CellOf(voxel)] = kUnknown;
     block.surface[CellOf(voxel)] = 0;
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ofm/base/check.h"
+#include "ofm/base/median.h"
 #include "ofm/camera/depth_noise.h"
 #include "ofm/dense/octree_file.h"
 #include "ofm/dense/surface_thinning.h"
@@ -92,11 +93,8 @@ class SurfacePoints {
   VoxelLookup lookup_;
 };
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double MedianOrZero(std::vector<double> values) {
+  return values.empty() ? 0 : UpperMedian(std::move(values));
 }
 
 }  // namespace
@@ -194,7 +192,7 @@ SurfaceMetrics SurfaceMeter::Evaluate(const octomap::ColorOcTree& octree,
     metrics.points_off += distances_m.back() >= options_.reach_m;
   }
   metrics.points = distances_m.size();
-  metrics.median_distance_m = Median(std::move(distances_m));
+  metrics.median_distance_m = MedianOrZero(std::move(distances_m));
   return metrics;
 }
 

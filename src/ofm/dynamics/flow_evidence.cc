@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
+
+#include "ofm/base/median.h"
 
 namespace ofm {
 namespace {
@@ -134,9 +137,7 @@ float StaticSigma(const std::vector<Residual>& residuals, const cv::Mat& belief)
     }
   }
   if (values.size() < kMinCells) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return kSigmaPerMedian * *middle;
+  return kSigmaPerMedian * UpperMedian(std::move(values));
 }
 
 /// Depths of the cells around one, where `source` is set.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ofm/base/check.h"
+#include "ofm/base/median.h"
 #include "ofm/base/time.h"
 #include "ofm/dynamics/assignment.h"
 #include "ofm/perception/depth_range.h"
@@ -33,9 +34,7 @@ Detection Measure(const Instance& instance, const cv::Mat& depth_m, double margi
   std::vector<float> depths = SampleDepths(instance.mask(box), depth_m(box), kStep);
   std::erase(depths, 0.0F);
   if (depths.size() < kLeast) return detection;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  detection.measurement.depth_m = *middle;
+  detection.measurement.depth_m = UpperMedian(depths);
   detection.depths = FindDepthRange(std::move(depths), margin_m, kLeast);
   return detection;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ofm/base/check.h"
+#include "ofm/base/median.h"
 #include "ofm/camera/depth_regions.h"
 #include "ofm/perception/depth_range.h"
 #include "ofm/perception/mask_growth.h"
@@ -44,12 +45,6 @@ std::vector<float> DepthsOf(const DepthRegion& region, const cv::Mat& depth_m) {
   return depths;
 }
 
-float Median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Clears the surfaces that are not the object's; gives the object's depths.
 std::optional<DepthRange> TrimSurfaces(const MaskRefinementOptions& options, Reduced& reduced) {
   const auto regions =
@@ -63,7 +58,7 @@ std::optional<DepthRange> TrimSurfaces(const MaskRefinementOptions& options, Red
   if (largest == regions.end() || measured < options.min_measured_share * all) return {};
   const auto range = FindDepthRange(DepthsOf(*largest, reduced.depth_m), options.depth_margin_m, 1);
   for (const DepthRegion& region : regions) {
-    if (range->Contains(Median(DepthsOf(region, reduced.depth_m)))) continue;
+    if (range->Contains(UpperMedian(DepthsOf(region, reduced.depth_m)))) continue;
     for (const cv::Point& pixel : region.pixels) reduced.mask.at<std::uint8_t>(pixel) = 0;
   }
   return range;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "ofm/base/median.h"
 #include "ofm/estimation/reprojection.h"
 
 namespace ofm {
@@ -10,6 +12,13 @@ namespace {
 
 /// One observation counts for so many limits at most: it alone condemns few points.
 constexpr double kMostLimits = 6;
+
+/// An observation that counts.
+struct Sighting {
+  int pose, point;
+  PointObservation seen;
+  Eigen::Vector3d point_in_camera;
+};
 
 /// What the observers of a point say together.
 struct PointEvidence {
@@ -20,12 +29,28 @@ struct PointEvidence {
   int depths = 0;
 };
 
+/// Those with weight, of points before the camera.
+std::vector<Sighting> FindSightings(std::span<const RigidTransform> camera_from_world,
+                                    std::span<const Eigen::Vector3d> points_in_world,
+                                    std::span<const BundleProblem::Observation> observations) {
+  std::vector<Sighting> sightings;
+  sightings.reserve(observations.size());
+  for (const auto& [pose, point, seen] : observations) {
+    const Eigen::Vector3d in_camera = camera_from_world[pose] * points_in_world[point];
+    if (seen.weight > 0 && IsBeforeCamera(in_camera)) {
+      sightings.push_back({pose, point, seen, in_camera});
+    }
+  }
+  return sightings;
+}
+
 /// The median over all depths of triangulated over measured; 1 where there are none.
-double CommonScale(std::vector<double> ratios) {
-  if (ratios.empty()) return 1;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+double CommonScale(const std::vector<Sighting>& sightings) {
+  std::vector<double> ratios;
+  for (const Sighting& s : sightings) {
+    if (HasDepth(s.seen)) ratios.push_back(s.point_in_camera.z() / s.seen.depth_m);
+  }
+  return ratios.empty() ? 1 : UpperMedian(std::move(ratios));
 }
 
 /// What the pixel of an observation says about the point's inverse depth as seen from `centre`.
@@ -44,35 +69,26 @@ std::vector<char> FindContradictedDepths(const PinholeCamera& camera,
                                          std::span<const Eigen::Vector3d> points_in_world,
                                          std::span<const BundleProblem::Observation> observations,
                                          const DepthVettingOptions& options) {
+  const std::vector<Sighting> sightings =
+      FindSightings(camera_from_world, points_in_world, observations);
   std::vector<Eigen::Vector3d> centres;
-  centres.reserve(camera_from_world.size());
   for (const RigidTransform& pose : camera_from_world) {
     centres.push_back(pose.Inverse().translation());
   }
   std::vector<PointEvidence> evidence(points_in_world.size());
-  std::vector<double> ratios;
-  const auto in_camera = [&](const BundleProblem::Observation& o) {
-    return camera_from_world[o.pose] * points_in_world[o.point];
-  };
-  const auto counts = [&](const BundleProblem::Observation& o) {
-    return o.seen.weight > 0 && IsBeforeCamera(in_camera(o));
-  };
-  for (const auto& o : observations) {
-    if (!counts(o)) continue;
-    evidence[o.point].sum_of_centres += centres[o.pose];
-    ++evidence[o.point].views;
-    if (HasDepth(o.seen)) ratios.push_back(in_camera(o).z() / o.seen.depth_m);
+  for (const Sighting& s : sightings) {
+    evidence[s.point].sum_of_centres += centres[s.pose];
+    ++evidence[s.point].views;
   }
-  const double scale = CommonScale(std::move(ratios));
+  const double scale = CommonScale(sightings);
   const double most = kMostLimits * options.max_residual;
-  for (const auto& o : observations) {
-    if (!counts(o)) continue;
-    PointEvidence& point = evidence[o.point];
-    const Eigen::Vector3d p = in_camera(o);
-    const Eigen::Vector3d centre = camera_from_world[o.pose] * (point.sum_of_centres / point.views);
-    point.parallax_information += ParallaxInformation(camera, p, centre, o.seen);
-    if (!HasDepth(o.seen)) continue;
-    point.sum_of_residuals += std::clamp(1 / o.seen.depth_m - scale / p.z(), -most, most);
+  for (const Sighting& s : sightings) {
+    PointEvidence& point = evidence[s.point];
+    const Eigen::Vector3d centre = camera_from_world[s.pose] * (point.sum_of_centres / point.views);
+    point.parallax_information += ParallaxInformation(camera, s.point_in_camera, centre, s.seen);
+    if (!HasDepth(s.seen)) continue;
+    point.sum_of_residuals +=
+        std::clamp(1 / s.seen.depth_m - scale / s.point_in_camera.z(), -most, most);
     ++point.depths;
   }
   const double least_information = 1 / (options.max_parallax_sigma * options.max_parallax_sigma);

@@ -4,16 +4,11 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "ofm/base/median.h"
 #include "ofm/base/time.h"
 
 namespace ofm {
 namespace {
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Fills in the speeds of a track.
 void MeasureSpeeds(std::vector<TrackPoint>& points, double window_s) {
@@ -55,7 +50,9 @@ std::optional<Eigen::Vector3d> MedianPoint(const cv::Mat& mask, const cv::Mat& d
     }
   }
   if (coordinates[0].size() < kMinPoints) return {};
-  return Eigen::Vector3d(Median(coordinates[0]), Median(coordinates[1]), Median(coordinates[2]));
+  return Eigen::Vector3d(UpperMedian(std::move(coordinates[0])),
+                         UpperMedian(std::move(coordinates[1])),
+                         UpperMedian(std::move(coordinates[2])));
 }
 
 void TrackLog::Add(std::int64_t stamp_ns, const cv::Mat& depth_m,
