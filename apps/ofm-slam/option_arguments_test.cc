@@ -85,6 +85,7 @@ TEST(ShippedConfigs, PaperCullsAsInThePaper) {
   EXPECT_EQ(options.dynamics.mode, DynamicsMode::kPaper);
   EXPECT_THAT(options.dynamics.dynamic_classes, testing::ElementsAre("person"));
   EXPECT_EQ(options.perception.segmenter, SegmenterKind::kYoloSeg);
+  EXPECT_FALSE(options.tracking.alignment.enabled);  // not in the paper
 }
 
 }  // namespace

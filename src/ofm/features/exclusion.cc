@@ -22,10 +22,12 @@ void EraseExcluded(const cv::Mat& excluded, Features& features) {
     if (IsExcluded(excluded, features.keypoints[i].pixel)) continue;
     features.keypoints[kept] = features.keypoints[i];
     features.descriptors[kept] = features.descriptors[i];
+    if (!features.patches.empty()) features.patches[kept] = features.patches[i];
     ++kept;
   }
   features.keypoints.resize(kept);
   features.descriptors.resize(kept);
+  if (!features.patches.empty()) features.patches.resize(kept);
 }
 
 }  // namespace ofm

@@ -47,6 +47,15 @@ TEST(EraseExcluded, KeepsTheOthersInTheirOrderWithTheirDescriptors) {
   EXPECT_EQ(features.keypoints[1].pixel.x(), 5);
 }
 
+TEST(EraseExcluded, KeepsTheOthersPatches) {
+  Features features = InRowTwo({0, 3, 5});
+  features.patches.resize(3);
+  for (int i = 0; i < 3; ++i) features.patches[i].gray[0] = static_cast<std::uint8_t>(i);
+  EraseExcluded(ColumnThree(), features);
+  ASSERT_EQ(features.patches.size(), 2U);
+  EXPECT_EQ(features.patches[1].gray[0], 2);
+}
+
 TEST(EraseExcluded, AnEmptyMaskKeepsAll) {
   Features features = InRowTwo({0, 3});
   EraseExcluded({}, features);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "ofm/features/patch_alignment.h"
+
 namespace ofm {
 
 /// 256 bits, compared by Hamming distance.
@@ -26,10 +28,12 @@ struct Keypoint {
   float response = 0;                               ///< corner score; larger is stronger
 };
 
-/// Key points with their descriptors; both lists have the same length.
+/// Key points with their descriptors and what is about them; all lists have the same length, but
+/// that there may be no patches.
 struct Features {
   std::vector<Keypoint> keypoints;
   std::vector<Descriptor> descriptors;
+  std::vector<ImagePatch> patches;
 
   std::size_t size() const { return keypoints.size(); }
 };

@@ -41,9 +41,13 @@ std::shared_ptr<const FrameFeatures> MakeFrameFeatures(Features features, const 
                                                        const PinholeCamera& camera,
                                                        const cv::Mat& static_probability) {
   OFM_CHECK(features.keypoints.size() == features.descriptors.size());
+  OFM_CHECK(features.patches.empty() || features.patches.size() == features.size());
   auto frame = std::make_shared<FrameFeatures>();
   frame->keypoints = std::move(features.keypoints);
   frame->descriptors = std::move(features.descriptors);
+  if (!features.patches.empty()) {
+    frame->patches = std::make_shared<const std::vector<ImagePatch>>(std::move(features.patches));
+  }
   frame->ideal_px.reserve(frame->size());
   frame->depth_m.reserve(frame->size());
   for (const Keypoint& keypoint : frame->keypoints) {

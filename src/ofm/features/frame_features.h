@@ -20,9 +20,14 @@ struct FrameFeatures {
   std::vector<Eigen::Vector2f> ideal_px;  ///< undistorted [px]
   std::vector<float> depth_m;             ///< 0 = not measured
   std::vector<float> static_probability;  ///< 0 to 1; empty = all 1
-  FeatureGrid grid;                       ///< over ideal_px
+  std::vector<char> is_aligned;           ///< place by alignment with the map; empty = none
+  float aligned_noise = 1;                ///< of these places, over that of corners
+  /// About each feature; null in a map that was loaded.
+  std::shared_ptr<const std::vector<ImagePatch>> patches;
+  FeatureGrid grid;  ///< over ideal_px
 
   std::size_t size() const { return keypoints.size(); }
+  bool IsAligned(int feature) const { return !is_aligned.empty() && is_aligned[feature] != 0; }
   float StaticProbability(int feature) const {
     return static_probability.empty() ? 1.0F : static_probability[feature];
   }

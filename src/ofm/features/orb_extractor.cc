@@ -17,6 +17,7 @@ namespace {
 
 /// The disc of kPatchRadius and one pixel to find maxima in must lie in the image.
 constexpr int kMargin = kPatchRadius + 1;
+static_assert(kMargin >= ImagePatch::kRadius);
 /// Cells that take weak corners where they have no strong one [px of the level].
 constexpr int kCellSize = 30;
 /// A level's share of the key points goes with its scale to this power. Equal density in the
@@ -85,6 +86,7 @@ Features OrbExtractor::Extract(const cv::Mat& gray, const cv::Mat& excluded) {
   Features features;
   features.keypoints.reserve(options_.count);
   features.descriptors.reserve(options_.count);
+  features.patches.reserve(options_.count);
   for (std::size_t octave = 0; octave < counts.size(); ++octave) {
     if (counts[octave] > 0) Describe(static_cast<int>(octave), counts[octave], excluded, features);
   }
@@ -121,6 +123,27 @@ void OrbExtractor::RankByHarris(int octave) {
   }
 }
 
+ImagePatch OrbExtractor::CutPatch(const Corner& corner, int octave, const cv::Mat& excluded) const {
+  constexpr int kMiddle = 6, kStep = 2;  // what is compared, and how far that may move
+  const Eigen::Vector2f centre(corner.x, corner.y);
+  const PaddedImage& image = workspace_->pyramid.image(octave);
+  ImagePatch patch;
+  patch.centre_px = InFullImage(centre, octave);
+  for (int y = 0; y < ImagePatch::kSize; ++y) {
+    const std::uint8_t* row =
+        image.Row(corner.y + y - ImagePatch::kRadius) + corner.x - ImagePatch::kRadius;
+    std::copy_n(row, ImagePatch::kSize, patch.gray.data() + y * ImagePatch::kSize);
+  }
+  if (excluded.empty()) return patch;
+  for (int y = -kMiddle; y <= kMiddle && patch.is_whole; y += kStep) {
+    for (int x = -kMiddle; x <= kMiddle; x += kStep) {
+      const Eigen::Vector2f offset(static_cast<float>(x), static_cast<float>(y));
+      if (IsExcluded(excluded, InFullImage(centre + offset, octave))) patch.is_whole = false;
+    }
+  }
+  return patch;
+}
+
 /// Adds the `count` best corners of a level.
 void OrbExtractor::Describe(int octave, int count, const cv::Mat& excluded, Features& features) {
   Workspace& w = *workspace_;
@@ -139,6 +162,7 @@ void OrbExtractor::Describe(int octave, int count, const cv::Mat& excluded, Feat
         OrientationOf(w.kernels.centroid(image.Row(corner.y) + corner.x, image.stride()));
     w.kernels.copy_patch(smooth.Row(corner.y) + corner.x, smooth.stride(), w.patch);
     features.keypoints.push_back(keypoint);
+    features.patches.push_back(CutPatch(corner, octave, excluded));
     features.descriptors.push_back(w.kernels.describe(w.patch, w.rotations.At(keypoint.angle_rad)));
   }
 }

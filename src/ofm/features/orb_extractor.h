@@ -9,6 +9,7 @@
 
 namespace ofm {
 
+struct Corner;
 struct OrbKernels;
 
 struct OrbOptions {
@@ -43,7 +44,8 @@ class OrbExtractor {
 
   /// About options.count features of `gray` (CV_8UC1), none where `excluded` (empty, or CV_8UC1 of
   /// the same size) is not 0. Key points are in the full image's pixels, with sub-pixel places. The
-  /// same images always give the same features. Throws std::logic_error for an image of another
+  /// same images always give the same features. Patches are marked where what is
+  /// excluded is near. Throws std::logic_error for an image of another
   /// type.
   Features Extract(const cv::Mat& gray, const cv::Mat& excluded = {});
 
@@ -57,6 +59,7 @@ class OrbExtractor {
   Eigen::Vector2f InFullImage(const Eigen::Vector2f& pixel, int octave) const;
   std::vector<int> DetectOnAllLevels(const cv::Mat& excluded);
   void RankByHarris(int octave);
+  ImagePatch CutPatch(const Corner& corner, int octave, const cv::Mat& excluded) const;
   void Describe(int octave, int count, const cv::Mat& excluded, Features& features);
 
   OrbOptions options_;

@@ -238,5 +238,55 @@ TEST(OrbExtractor, RejectsImagesOfAnotherType) {
                std::logic_error);
 }
 
+TEST(OrbExtractor, PatchesShowWhatIsAboutTheKeyPoints) {
+  const cv::Mat image = TexturedImage(320, 240);
+  OrbExtractor extractor{OrbOptions{}};
+  const Features features = extractor.Extract(image);
+  ASSERT_EQ(features.patches.size(), features.size());
+  cv::Mat smooth;  // as the pyramid smooths its level 0
+  cv::sepFilter2D(image, smooth, CV_8U, cv::Matx13f(0.25F, 0.5F, 0.25F),
+                  cv::Matx13f(0.25F, 0.5F, 0.25F));
+  int checked = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const ImagePatch& patch = features.patches[i];
+    EXPECT_TRUE(patch.is_whole);
+    const Eigen::Vector2f offset = features.keypoints[i].pixel - patch.centre_px;
+    EXPECT_LE(offset.cwiseAbs().maxCoeff(),
+              0.51F * extractor.ScaleOf(features.keypoints[i].octave));
+    if (features.keypoints[i].octave != 0) continue;
+    const cv::Point centre(static_cast<int>(patch.centre_px.x()),
+                           static_cast<int>(patch.centre_px.y()));
+    for (const cv::Point at : {cv::Point(0, 0), cv::Point(-9, 4), cv::Point(3, 9)}) {
+      const Eigen::Vector2f place(static_cast<float>(at.x), static_cast<float>(at.y));
+      if (std::max(std::abs(at.x), std::abs(at.y)) == ImagePatch::kRadius) {
+        const int index =
+            (at.y + ImagePatch::kRadius) * ImagePatch::kSize + at.x + ImagePatch::kRadius;
+        EXPECT_NEAR(patch.gray[index], smooth.at<std::uint8_t>(centre + at), 1);
+      } else {
+        EXPECT_NEAR(patch.At(place), smooth.at<std::uint8_t>(centre + at), 1);
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(OrbExtractor, PatchesNextToWhatIsExcludedAreNotWhole) {
+  const cv::Mat image = TexturedImage(320, 240);
+  cv::Mat excluded = cv::Mat::zeros(image.size(), CV_8UC1);
+  excluded(cv::Rect(160, 0, 160, 240)).setTo(255);
+  OrbExtractor extractor{OrbOptions{}};
+  const Features features = extractor.Extract(image, excluded);
+  int near = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const float scale = extractor.ScaleOf(features.keypoints[i].octave);
+    const float gap = (160 - features.patches[i].centre_px.x()) / scale;
+    if (gap >= 5 && gap <= 7) continue;
+    EXPECT_EQ(features.patches[i].is_whole, gap > 7);
+    near += gap < 5;
+  }
+  EXPECT_GT(near, 0);
+}
+
 }  // namespace
 }  // namespace ofm

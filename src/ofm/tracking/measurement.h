@@ -39,6 +39,7 @@ struct MeasurementModel {
     seen.ideal_px = frame.ideal_px[feature].cast<double>();
     seen.depth_m = frame.depth_m[feature];
     seen.pixel_sigma = options.pixel_sigma * scales.Scale(frame.keypoints[feature].octave);
+    if (frame.IsAligned(feature)) seen.pixel_sigma *= frame.aligned_noise;
     seen.inverse_depth_sigma = options.inverse_depth_sigma;
     seen.weight = frame.StaticProbability(feature);
     return seen;

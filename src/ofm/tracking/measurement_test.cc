@@ -33,6 +33,15 @@ TEST(MeasurementModel, PixelNoiseGrowsWithTheOctave) {
   }
 }
 
+TEST(MeasurementModel, AlignedFeaturesHaveTheirOwnNoise) {
+  FrameFeatures frame = *test::MakeTestFeatures({{{1, 2}, 3, 1, {}, 0}, {{5, 6}, 3, 1, {}, 0}});
+  frame.aligned_noise = 0.25F;
+  EXPECT_NEAR(MakeModel().Observe(frame, 1).pixel_sigma, 1.2, 1e-6);
+  frame.is_aligned = {0, 1};
+  EXPECT_NEAR(MakeModel().Observe(frame, 0).pixel_sigma, 1.2, 1e-6);
+  EXPECT_NEAR(MakeModel().Observe(frame, 1).pixel_sigma, 0.25 * 1.2, 1e-6);
+}
+
 TEST(MeasurementModel, DepthNoiseIsThatOfTheOptions) {
   MeasurementModel model = MakeModel();
   model.options.inverse_depth_sigma = 0.0123;

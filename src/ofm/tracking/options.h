@@ -3,6 +3,7 @@
 #include "ofm/base/options.h"
 #include "ofm/estimation/pnp.h"
 #include "ofm/estimation/pose_optimizer.h"
+#include "ofm/features/patch_alignment.h"
 
 namespace ofm {
 
@@ -76,6 +77,26 @@ struct SubmapOptions {
   }
 };
 
+/// How features are laid over the view of the keyframe that made their landmark.
+struct MatchAlignmentOptions {
+  bool enabled = true;
+  PatchAlignmentOptions patch = {};
+  double noise_scale = 3;   ///< of aligned places over their typical residual: it has long tails
+  double min_noise = 0.25;  ///< of aligned places, over that of corners
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("enabled", self.enabled,
+          "lay features over the keyframe that made their landmark: places to a small part of a "
+          "pixel");
+    visit("patch", self.patch);
+    visit("noise_scale", self.noise_scale,
+          "noise of aligned features over the sigma of a frame's typical residual", Range{0.1, 10});
+    visit("min_noise", self.min_noise,
+          "noise of aligned features at least, over measurement.pixel_sigma", Range{0.01, 1});
+  }
+};
+
 struct TrackingOptions {
   int min_start_features = 300;  ///< with depth, to begin a map
   double search_radius_px = 15;  ///< frame to frame, at octave 0
@@ -94,6 +115,7 @@ struct TrackingOptions {
   RelocalizationOptions relocalization;
   SubmapOptions submap;
   KeyframeOptions keyframe;
+  MatchAlignmentOptions alignment;
   PoseOptimizerOptions pose;
   PnpOptions pnp;
 
@@ -125,6 +147,7 @@ struct TrackingOptions {
     visit("relocalization", self.relocalization);
     visit("submap", self.submap);
     visit("keyframe", self.keyframe);
+    visit("alignment", self.alignment);
     visit("pose", self.pose);
     visit("pnp", self.pnp);
   }

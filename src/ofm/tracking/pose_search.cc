@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
+
+#include "ofm/tracking/match_alignment.h"
 
 namespace ofm {
 
@@ -55,11 +58,14 @@ TrackingResult PoseSearch::InLocalMap(const TrackingInput& input,
   std::vector<LandmarkId> looked_for = local.visible;
   for (const PointMatch& match : matches) looked_for.push_back(match.landmark);
   matches.insert(matches.end(), local.matches.begin(), local.matches.end());
-  const auto refined = Optimize(input, estimate.camera_from_world, matches);
+  auto refined = Optimize(input, estimate.camera_from_world, matches);
+  TrackingInput placed = input;
+  if (refined && options_.alignment.enabled) refined = Align(placed, *refined);
   const auto reference_pose = input.map->FindKeyframePose(local.reference);
   if (!refined || !reference_pose || refined->map_matches < options_.min_map_inliers) return result;
 
   result.status = TrackingStatus::kTracked;
+  result.features = placed.features;
   result.inliers = refined->map_matches;
   result.camera_from_world = refined->camera_from_world;
   result.reference = local.reference;
@@ -67,6 +73,24 @@ TrackingResult PoseSearch::InLocalMap(const TrackingInput& input,
   for (const PointMatch& match : refined->matches) result.landmarks[match.feature] = match.landmark;
   result.sightings = MakeSightings(input, *refined, looked_for);
   return result;
+}
+
+/// Puts features where alignment with the map finds them, and the camera where these say. Where
+/// that comes to nothing, `input` and `estimate` stay as they are.
+CameraEstimate PoseSearch::Align(TrackingInput& input, const CameraEstimate& estimate) const {
+  const FrameView view{*input.features, estimate.camera_from_world};
+  const auto features =
+      AlignMatches(model_, options_.alignment.patch, *input.map, view, estimate.matches);
+  TrackingInput placed = input;
+  placed.features = features;
+  const auto first = Optimize(placed, estimate.camera_from_world, estimate.matches);
+  if (!first) return estimate;
+  features->aligned_noise = static_cast<float>(MeasureAlignedNoise(
+      model_, options_.alignment, {*features, first->camera_from_world}, estimate.matches));
+  const auto second = Optimize(placed, first->camera_from_world, estimate.matches);
+  if (!second) return estimate;
+  input = std::move(placed);
+  return *second;
 }
 
 CameraEstimate PoseSearch::EstimateOf(const TrackingInput& input, const TrackingResult& result) {

@@ -43,6 +43,7 @@ class PoseSearch {
  private:
   std::optional<CameraEstimate> Optimize(const TrackingInput& input, const RigidTransform& initial,
                                          const std::vector<PointMatch>& matches) const;
+  CameraEstimate Align(TrackingInput& input, const CameraEstimate& estimate) const;
   std::vector<Sighting> MakeSightings(const TrackingInput& input, const CameraEstimate& refined,
                                       const std::vector<LandmarkId>& looked_for) const;
   bool IsSeenMoving(const TrackingInput& input, const RigidTransform& camera_from_world,

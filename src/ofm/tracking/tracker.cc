@@ -43,7 +43,9 @@ TrackingResult Tracker::Process(const TrackingInput& input) {
   }
   // Once more with the motion that was found: the predicted one is not good enough for landmarks.
   const std::optional<Vector6d> velocity = VelocityTo(input, result);
-  const TrackingInput aligned = AlignDepth(input, velocity);
+  TrackingInput placed = input;
+  if (result.features) placed.features = result.features;
+  const TrackingInput aligned = AlignDepth(placed, velocity);
   if (velocity) result.depth_from_color = ExpSe3(DepthDelay_s(input) * *velocity);
   const bool is_needed =
       HasPose(result.status) && result.inliers > 0 &&
