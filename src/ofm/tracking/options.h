@@ -81,7 +81,7 @@ struct SubmapOptions {
 struct MatchAlignmentOptions {
   bool enabled = true;
   PatchAlignmentOptions patch = {};
-  double noise_scale = 3;   ///< of aligned places over their typical residual: it has long tails
+  double noise_scale = 2;   ///< of aligned places over their typical residual: it has long tails
   double min_noise = 0.25;  ///< of aligned places, over that of corners
 
   template <class Self, class Visitor>
