@@ -123,6 +123,7 @@ void OrbExtractor::RankByHarris(int octave) {
   }
 }
 
+/// Grey levels about a corner; not whole where what is excluded is near.
 ImagePatch OrbExtractor::CutPatch(const Corner& corner, int octave, const cv::Mat& excluded) const {
   constexpr int kMiddle = 6, kStep = 2;  // what is compared, and how far that may move
   const Eigen::Vector2f centre(corner.x, corner.y);
