@@ -22,6 +22,7 @@ struct FrameFeatures {
   std::vector<float> static_probability;  ///< 0 to 1; empty = all 1
   std::vector<char> is_aligned;           ///< place by alignment with the map; empty = none
   float aligned_noise = 1;                ///< of these places, over that of corners
+  float depth_noise = 1;                  ///< of inverse depth, over what is expected of it
   /// About each feature; null in a map that was loaded.
   std::shared_ptr<const std::vector<ImagePatch>> patches;
   FeatureGrid grid;  ///< over ideal_px

@@ -7,7 +7,7 @@ namespace ofm {
 
 /// Local mapping (figures as published for ORB-SLAM2).
 struct MappingOptions {
-  int min_close_landmarks = 100;        ///< features with depth that become landmarks even when far
+  int min_close_landmarks = 600;        ///< features with depth that become landmarks even when far
   int neighbours = 10;                  ///< keyframes to triangulate and fuse with
   double min_found_ratio = 0.25;        ///< found / visible, under which a young landmark goes
   int min_observations = 2;             ///< of a landmark two keyframes after it was made

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +11,9 @@
 
 namespace ofm {
 namespace {
+
+/// Fewer residuals say nothing of the noise.
+constexpr std::size_t kLeastResiduals = 20;
 
 /// A landmark's feature in the keyframe that made it.
 struct Origin {
@@ -105,7 +109,6 @@ std::shared_ptr<FrameFeatures> AlignMatches(const MeasurementModel& model,
 
 double MeasureAlignedNoise(const MeasurementModel& model, const MatchAlignmentOptions& options,
                            const FrameView& view, std::span<const PointMatch> matches) {
-  constexpr std::size_t kLeast = 20;
   constexpr double kMedianOfRayleigh = 1.1774;  // of the length of a residual of sigma 1 per axis
   std::vector<double> residuals;
   for (const PointMatch& match : matches) {
@@ -117,9 +120,26 @@ double MeasureAlignedNoise(const MeasurementModel& model, const MatchAlignmentOp
                             model.scales.Scale(view.features.keypoints[match.feature].octave);
     residuals.push_back((model.camera.ProjectIdeal(in_camera) - seen).norm() / sigma_px);
   }
-  if (residuals.size() < kLeast) return 1;
+  if (residuals.size() < kLeastResiduals) return 1;
   const double sigma = UpperMedian(std::move(residuals)) / kMedianOfRayleigh;
   return std::clamp(options.noise_scale * sigma, options.min_noise, 1.0);
+}
+
+double MeasureDepthNoise(const MeasurementModel& model, const MatchAlignmentOptions& options,
+                         const FrameView& view, std::span<const PointMatch> matches) {
+  constexpr double kMedianOfNormal = 0.6745;  // of the absolute value of a residual of sigma 1
+  std::vector<double> residuals;
+  for (const PointMatch& match : matches) {
+    const double depth_m = view.features.depth_m[match.feature];
+    const double expected_m = (view.camera_from_world * match.point_in_world).z();
+    if (depth_m <= 0 || expected_m <= 0) continue;
+    residuals.push_back(std::abs(1 / depth_m - 1 / expected_m) / model.options.inverse_depth_sigma);
+  }
+  if (residuals.size() < kLeastResiduals) return 1;
+  const double sigma = UpperMedian(std::move(residuals)) / kMedianOfNormal;
+  const double distrust = view.features.aligned_noise / options.min_noise - 1;
+  return std::clamp(std::max(options.depth_noise_scale * sigma, distrust), options.min_depth_noise,
+                    1.0);
 }
 
 }  // namespace ofm

@@ -22,4 +22,13 @@ std::shared_ptr<FrameFeatures> AlignMatches(const MeasurementModel& model,
 double MeasureAlignedNoise(const MeasurementModel& model, const MatchAlignmentOptions& options,
                            const FrameView& view, std::span<const PointMatch> matches);
 
+/// How well the depth of `view` agrees with the map: its noise over
+/// measurement.inverse_depth_sigma, at most 1. Depth is trusted more only where the aligned
+/// features agree with the pose (their noise was measured before; from twice the least noise on the
+/// result is 1): what displaces them (blur, a rolling shutter, images of different times) displaces
+/// depth too, for many features alike, which a typical residual does not show. 1 where there are
+/// too few to tell.
+double MeasureDepthNoise(const MeasurementModel& model, const MatchAlignmentOptions& options,
+                         const FrameView& view, std::span<const PointMatch> matches);
+
 }  // namespace ofm

@@ -134,5 +134,41 @@ TEST_F(MatchAlignment, NoiseOfFewIsThatOfCorners) {
   EXPECT_EQ(MeasureAlignedNoise(model_, {}, View(*aligned), matches_), 1);
 }
 
+/// Depth whose inverse is off by `error` [1/m].
+void SetDepth(double error, FrameFeatures& features) {
+  std::ranges::fill(features.depth_m, static_cast<float>(1 / (1 / kDepth_m + error)));
+}
+
+TEST_F(MatchAlignment, DepthNoiseIsTheTypicalResidualTimesTheScale) {
+  MatchAlignmentOptions options;
+  options.depth_noise_scale = 2;
+  options.min_depth_noise = 0.1;
+  FrameFeatures seen = *Align(*second_);
+  seen.aligned_noise = static_cast<float>(options.min_noise);
+  SetDepth(0.2 * model_.options.inverse_depth_sigma, seen);
+  EXPECT_NEAR(MeasureDepthNoise(model_, options, View(seen), matches_), 2 * 0.2 / 0.6745, 1e-3);
+  SetDepth(0, seen);
+  EXPECT_EQ(MeasureDepthNoise(model_, options, View(seen), matches_), 0.1);
+  SetDepth(model_.options.inverse_depth_sigma, seen);
+  EXPECT_EQ(MeasureDepthNoise(model_, options, View(seen), matches_), 1);
+}
+
+TEST_F(MatchAlignment, DepthIsNotTrustedMoreWhereThePlacesDoNotAgree) {
+  MatchAlignmentOptions options;
+  FrameFeatures seen = *Align(*second_);
+  SetDepth(0, seen);
+  seen.aligned_noise = 1;
+  EXPECT_EQ(MeasureDepthNoise(model_, options, View(seen), matches_), 1);
+  seen.aligned_noise = static_cast<float>(1.5 * options.min_noise);
+  EXPECT_NEAR(MeasureDepthNoise(model_, options, View(seen), matches_), 0.5, 1e-6);
+}
+
+TEST_F(MatchAlignment, DepthNoiseOfFewIsWhatIsExpected) {
+  FrameFeatures seen = *Align(*second_);
+  seen.aligned_noise = 0;
+  std::ranges::fill(seen.depth_m, 0.0F);
+  EXPECT_EQ(MeasureDepthNoise(model_, {}, View(seen), matches_), 1);
+}
+
 }  // namespace
 }  // namespace ofm

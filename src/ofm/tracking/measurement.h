@@ -40,7 +40,7 @@ struct MeasurementModel {
     seen.depth_m = frame.depth_m[feature];
     seen.pixel_sigma = options.pixel_sigma * scales.Scale(frame.keypoints[feature].octave);
     if (frame.IsAligned(feature)) seen.pixel_sigma *= frame.aligned_noise;
-    seen.inverse_depth_sigma = options.inverse_depth_sigma;
+    seen.inverse_depth_sigma = options.inverse_depth_sigma * frame.depth_noise;
     seen.weight = frame.StaticProbability(feature);
     return seen;
   }

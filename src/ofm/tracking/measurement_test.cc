@@ -49,6 +49,14 @@ TEST(MeasurementModel, DepthNoiseIsThatOfTheOptions) {
   EXPECT_EQ(model.Observe(*frame, 0).inverse_depth_sigma, 0.0123);
 }
 
+TEST(MeasurementModel, AFrameMayKnowItsDepthBetter) {
+  MeasurementModel model = MakeModel();
+  model.options.inverse_depth_sigma = 0.02;
+  FrameFeatures frame = *test::MakeTestFeatures({{{1, 2}, 3, 4, {}, 0}});
+  frame.depth_noise = 0.25F;
+  EXPECT_EQ(model.Observe(frame, 0).inverse_depth_sigma, 0.005);
+}
+
 TEST(MeasurementModel, FeatureWithoutDepthStaysWithout) {
   const auto frame = test::MakeTestFeatures({{{1, 2}, 0, 0, {}, 0}});
   EXPECT_EQ(MakeModel().Observe(*frame, 0).depth_m, 0);

@@ -83,6 +83,8 @@ struct MatchAlignmentOptions {
   PatchAlignmentOptions patch = {};
   double noise_scale = 2;   ///< of aligned places over their typical residual: it has long tails
   double min_noise = 0.25;  ///< of aligned places, over that of corners
+  double depth_noise_scale = 2;  ///< of inverse depth over its typical residual
+  double min_depth_noise = 0.1;  ///< of inverse depth, over measurement.inverse_depth_sigma
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -94,6 +96,12 @@ struct MatchAlignmentOptions {
           "noise of aligned features over the sigma of a frame's typical residual", Range{0.1, 10});
     visit("min_noise", self.min_noise,
           "noise of aligned features at least, over measurement.pixel_sigma", Range{0.01, 1});
+    visit("depth_noise_scale", self.depth_noise_scale,
+          "noise of inverse depth over the sigma of a frame's typical residual", Range{0.1, 1000});
+    visit("min_depth_noise", self.min_depth_noise,
+          "noise of inverse depth at least, over measurement.inverse_depth_sigma; 1 = it is not "
+          "measured",
+          Range{0.01, 1});
   }
 };
 

@@ -85,8 +85,11 @@ CameraEstimate PoseSearch::Align(TrackingInput& input, const CameraEstimate& est
   placed.features = features;
   const auto first = Optimize(placed, estimate.camera_from_world, estimate.matches);
   if (!first) return estimate;
-  features->aligned_noise = static_cast<float>(MeasureAlignedNoise(
-      model_, options_.alignment, {*features, first->camera_from_world}, estimate.matches));
+  const FrameView refined{*features, first->camera_from_world};
+  features->aligned_noise = static_cast<float>(
+      MeasureAlignedNoise(model_, options_.alignment, refined, estimate.matches));
+  features->depth_noise =
+      static_cast<float>(MeasureDepthNoise(model_, options_.alignment, refined, estimate.matches));
   const auto second = Optimize(placed, first->camera_from_world, estimate.matches);
   if (!second) return estimate;
   input = std::move(placed);
