@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ofm/features/patch_alignment.h"
+#include "ofm/features/image_patch.h"
 
 namespace ofm {
 

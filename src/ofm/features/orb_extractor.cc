@@ -163,7 +163,7 @@ void OrbExtractor::Describe(int octave, int count, const cv::Mat& excluded, Feat
         OrientationOf(w.kernels.centroid(image.Row(corner.y) + corner.x, image.stride()));
     w.kernels.copy_patch(smooth.Row(corner.y) + corner.x, smooth.stride(), w.patch);
     features.keypoints.push_back(keypoint);
-    features.patches.push_back(CutPatch(corner, octave, excluded));
+    if (options_.patches) features.patches.push_back(CutPatch(corner, octave, excluded));
     features.descriptors.push_back(w.kernels.describe(w.patch, w.rotations.At(keypoint.angle_rad)));
   }
 }

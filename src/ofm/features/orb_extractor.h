@@ -19,6 +19,7 @@ struct OrbOptions {
   int fast_threshold = 20;     ///< grey levels
   int min_fast_threshold = 7;  ///< grey levels, where a cell is empty at fast_threshold
   double evenness = 0.75;      ///< share chosen to cover the image; the others are the strongest
+  bool patches = true;         ///< keep what is about each; whoever uses them asks for them
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("count", self.count, "key points wanted per image", Range{50, 20000});
@@ -45,8 +46,7 @@ class OrbExtractor {
   /// About options.count features of `gray` (CV_8UC1), none where `excluded` (empty, or CV_8UC1 of
   /// the same size) is not 0. Key points are in the full image's pixels, with sub-pixel places. The
   /// same images always give the same features. Patches are marked where what is
-  /// excluded is near. Throws std::logic_error for an image of another
-  /// type.
+  /// excluded is near. Throws std::logic_error for an image of another type.
   Features Extract(const cv::Mat& gray, const cv::Mat& excluded = {});
 
   /// Scale of an octave relative to the full image: scale_factor^octave.

@@ -238,6 +238,17 @@ TEST(OrbExtractor, RejectsImagesOfAnotherType) {
                std::logic_error);
 }
 
+TEST(OrbExtractor, KeepsNoPatchesWhereNobodyWantsThem) {
+  const cv::Mat image = TexturedImage(320, 240);
+  OrbOptions options;
+  const Features with = OrbExtractor(options).Extract(image);
+  options.patches = false;
+  const Features without = OrbExtractor(options).Extract(image);
+  EXPECT_FALSE(with.patches.empty());
+  EXPECT_TRUE(without.patches.empty());
+  ExpectSame(with, without);
+}
+
 TEST(OrbExtractor, PatchesShowWhatIsAboutTheKeyPoints) {
   const cv::Mat image = TexturedImage(320, 240);
   OrbExtractor extractor{OrbOptions{}};

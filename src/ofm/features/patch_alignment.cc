@@ -1,6 +1,7 @@
 #include "ofm/features/patch_alignment.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 
 namespace ofm {
@@ -89,16 +90,6 @@ float Correlation(const Window& a, const Window& b) {
 }
 
 }  // namespace
-
-float ImagePatch::At(const Eigen::Vector2f& offset) const {
-  const float x = offset.x() + kRadius, y = offset.y() + kRadius;
-  const float left = std::floor(x), top = std::floor(y);
-  if (!(left >= 0 && top >= 0 && left + 1 < kSize && top + 1 < kSize)) return -1;
-  const std::uint8_t* upper = gray.data() + static_cast<int>(top) * kSize + static_cast<int>(left);
-  const std::uint8_t* lower = upper + kSize;
-  const float u = x - left, v = y - top;
-  return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
-}
 
 std::optional<Eigen::Vector2f> AlignPatch(const PatchPlace& reference, const PatchPlace& current,
                                           const Eigen::Matrix2f& reference_from_current,

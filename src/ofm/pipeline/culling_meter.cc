@@ -18,10 +18,16 @@ cv::Mat UnionOf(const Segmentation& segmentation, cv::Size size) {
   return mask;
 }
 
+OrbOptions WithoutPatches(OrbOptions options) {
+  options.patches = false;
+  return options;
+}
+
 }  // namespace
 
 CullingMeter::CullingMeter(const std::filesystem::path& true_masks, const OrbOptions& features)
-    : truth_(MaskFolder{true_masks, {}, "person", MaskFiles::kImages}), extractor_(features) {}
+    : truth_(MaskFolder{true_masks, {}, "person", MaskFiles::kImages}),
+      extractor_(WithoutPatches(features)) {}
 
 void CullingMeter::OnFrame(const FrameReport& report) {
   const RgbdFrame& frame = report.prepared.frame;

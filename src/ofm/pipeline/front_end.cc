@@ -7,9 +7,16 @@
 namespace ofm {
 namespace {
 
+/// Patches are for alignment alone.
+OrbOptions ExtractorOptions(const SlamOptions& options) {
+  OrbOptions features = options.features;
+  features.patches = options.tracking.alignment.enabled;
+  return features;
+}
+
 /// What is seen of the static scene between people must be used better.
 OrbOptions CrowdedOptions(const SlamOptions& options) {
-  OrbOptions features = options.features;
+  OrbOptions features = ExtractorOptions(options);
   features.count =
       static_cast<int>(std::lround(features.count * options.dynamics.crowded_features));
   return features;
@@ -26,7 +33,7 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
       segmentation_(std::move(segmenter), options.perception.schedule,
                     lattice_flow_.lattice().cells()),
       dynamics_(options.dynamics, camera, segmentation_.class_names()),
-      extractor_(options.features),
+      extractor_(ExtractorOptions(options)),
       crowded_extractor_(CrowdedOptions(options)),
       crowded_share_(options.dynamics.crowded_share) {}
 

@@ -85,6 +85,12 @@ std::optional<Eigen::Vector2f> FindPlace(const MeasurementModel& model,
   return current.patch.centre_px + scale * *offset;
 }
 
+/// Sigma of residuals, of which `unit_median` is the median where sigma is 1; empty for too few.
+std::optional<double> RobustSigma(std::vector<double> residuals, double unit_median) {
+  if (residuals.size() < kLeastResiduals) return {};
+  return UpperMedian(std::move(residuals)) / unit_median;
+}
+
 }  // namespace
 
 std::shared_ptr<FrameFeatures> AlignMatches(const MeasurementModel& model,
@@ -120,9 +126,9 @@ double MeasureAlignedNoise(const MeasurementModel& model, const MatchAlignmentOp
                             model.scales.Scale(view.features.keypoints[match.feature].octave);
     residuals.push_back((model.camera.ProjectIdeal(in_camera) - seen).norm() / sigma_px);
   }
-  if (residuals.size() < kLeastResiduals) return 1;
-  const double sigma = UpperMedian(std::move(residuals)) / kMedianOfRayleigh;
-  return std::clamp(options.noise_scale * sigma, options.min_noise, 1.0);
+  const auto sigma = RobustSigma(std::move(residuals), kMedianOfRayleigh);
+  if (!sigma) return 1;
+  return std::clamp(options.noise_scale * *sigma, options.min_noise, 1.0);
 }
 
 double MeasureDepthNoise(const MeasurementModel& model, const MatchAlignmentOptions& options,
@@ -135,10 +141,10 @@ double MeasureDepthNoise(const MeasurementModel& model, const MatchAlignmentOpti
     if (depth_m <= 0 || expected_m <= 0) continue;
     residuals.push_back(std::abs(1 / depth_m - 1 / expected_m) / model.options.inverse_depth_sigma);
   }
-  if (residuals.size() < kLeastResiduals) return 1;
-  const double sigma = UpperMedian(std::move(residuals)) / kMedianOfNormal;
+  const auto sigma = RobustSigma(std::move(residuals), kMedianOfNormal);
+  if (!sigma) return 1;
   const double distrust = view.features.aligned_noise / options.min_noise - 1;
-  return std::clamp(std::max(options.depth_noise_scale * sigma, distrust), options.min_depth_noise,
+  return std::clamp(std::max(options.depth_noise_scale * *sigma, distrust), options.min_depth_noise,
                     1.0);
 }
 

@@ -30,8 +30,8 @@ class MatchAlignment : public testing::Test {
     const auto first = Take(wall_);
     second_ = Take(seen);
     Keyframe keyframe = test::MakeTestKeyframe(first);
-    const KeyframeId id = map_.AddKeyframe(std::move(keyframe));
-    MatchByPlace(*first, id);
+    first_ = map_.AddKeyframe(std::move(keyframe));
+    MatchByPlace(*first, first_);
   }
 
   Eigen::Vector2d TrueShift() const {
@@ -82,6 +82,7 @@ class MatchAlignment : public testing::Test {
   RigidTransform moved_;
   std::shared_ptr<const FrameFeatures> second_;
   Map map_{test::TestScales()};
+  KeyframeId first_;
   std::vector<PointMatch> matches_;
 };
 
@@ -108,6 +109,24 @@ TEST_F(MatchAlignment, WithoutPatchesNothingIsAligned) {
   const auto aligned = Align(bare);
   EXPECT_EQ(std::ranges::count(aligned->is_aligned, char{1}), 0);
   EXPECT_EQ(PlaceError(*aligned), PlaceError(*second_));
+}
+
+TEST_F(MatchAlignment, TakesTheOldestKeyframeWithPatchesWhereThatWhichMadeALandmarkHasNone) {
+  const auto expected = Align(*second_);
+  const auto snapshot = map_.Snapshot();
+  const Keyframe& first = *snapshot->keyframes.Find(first_);
+  auto bare = std::make_shared<FrameFeatures>(*first.features);
+  bare->patches = nullptr;
+  Map loaded{test::TestScales()};
+  const KeyframeId without = loaded.AddKeyframe(test::MakeTestKeyframe(bare));
+  const KeyframeId with = loaded.AddKeyframe(test::MakeTestKeyframe(first.features));
+  for (PointMatch& match : matches_) {
+    const int feature = snapshot->FindLandmark(match.landmark)->observations.front().feature;
+    match.landmark = loaded.AddLandmark(match.point_in_world, without, feature);
+    loaded.AddObservation(match.landmark, with, feature);
+  }
+  const auto aligned = AlignMatches(model_, {}, *loaded.Snapshot(), View(*second_), matches_);
+  EXPECT_EQ(aligned->ideal_px, expected->ideal_px);
 }
 
 TEST_F(MatchAlignment, NoiseIsTheTypicalResidualTimesTheScale) {

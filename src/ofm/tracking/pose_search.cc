@@ -58,11 +58,14 @@ TrackingResult PoseSearch::InLocalMap(const TrackingInput& input,
   std::vector<LandmarkId> looked_for = local.visible;
   for (const PointMatch& match : matches) looked_for.push_back(match.landmark);
   matches.insert(matches.end(), local.matches.begin(), local.matches.end());
+  const auto is_enough = [&](const std::optional<CameraEstimate>& found) {
+    return found && found->map_matches >= options_.min_map_inliers;
+  };
   auto refined = Optimize(input, estimate.camera_from_world, matches);
   TrackingInput placed = input;
-  if (refined && options_.alignment.enabled) refined = Align(placed, *refined);
+  if (options_.alignment.enabled && is_enough(refined)) refined = Align(placed, *refined);
   const auto reference_pose = input.map->FindKeyframePose(local.reference);
-  if (!refined || !reference_pose || refined->map_matches < options_.min_map_inliers) return result;
+  if (!is_enough(refined) || !reference_pose) return result;
 
   result.status = TrackingStatus::kTracked;
   result.features = placed.features;

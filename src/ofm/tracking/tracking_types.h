@@ -73,7 +73,8 @@ struct TrackingResult {
   /// The camera when the depth image was taken, from the camera when the colour image was; identity
   /// where its motion is not known.
   RigidTransform depth_from_color;
-  /// Those of the input, at the places that alignment with the map found; null without a pose.
+  /// Those of the input, at the places that alignment with the map found; null where the pose is
+  /// not by the map.
   std::shared_ptr<const FrameFeatures> features;
   std::vector<LandmarkId> landmarks;  ///< by feature: inliers of the pose
   std::vector<Sighting> sightings;
