@@ -62,8 +62,7 @@ struct DynamicsOptions {
   int dilation_px = 7;                           ///< radius by which masks grow, mode `paper`
   double exclusion_radius_px = 10;               ///< around a point found moving, mode `paper`
   EpipolarOptions epipolar = {};                 ///< of mode `paper`
-  double crowded_share = 0.15;    ///< of the image masked, from which more features are taken
-  double crowded_features = 1.5;  ///< times as many; from here on: of mode `full`
+  double crowded_features = 2;  ///< at most times as many features; from here on: of mode `full`
   MotionOptions motion = {};
   MaskRefinementOptions refinement = {};
   InstanceTrackerOptions tracker = {};
@@ -80,9 +79,10 @@ struct DynamicsOptions {
           Range{0, 100});
     visit("exclusion_radius_px", self.exclusion_radius_px,
           "radius masked around a point found moving, mode paper [px]", Range{0, 100});
-    visit("crowded_share", self.crowded_share,
-          "masked share of the image from which more features are taken, mode full", Range{0, 1});
-    visit("crowded_features", self.crowded_features, "times as many features there", Range{1, 5});
+    visit("crowded_features", self.crowded_features,
+          "as many features for each visible pixel as where nothing is masked, but at most so many "
+          "times as many in all, mode full",
+          Range{1, 5});
     visit("epipolar", self.epipolar, "motion by epipolar geometry, mode paper");
     visit("motion", self.motion, "motion by flow and depth, mode full");
     visit("refinement", self.refinement, "instance masks and depth, mode full");

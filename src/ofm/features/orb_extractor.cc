@@ -78,23 +78,23 @@ Eigen::Vector2f OrbExtractor::InFullImage(const Eigen::Vector2f& pixel, int octa
   return (pixel + half) * ScaleOf(octave) - half;
 }
 
-Features OrbExtractor::Extract(const cv::Mat& gray, const cv::Mat& excluded) {
+Features OrbExtractor::Extract(const cv::Mat& gray, const cv::Mat& excluded, int count) {
   OFM_CHECK(gray.type() == CV_8UC1);
   OFM_CHECK(excluded.empty() || (excluded.type() == CV_8UC1 && excluded.size() == gray.size()));
   workspace_->pyramid.Build(gray);
-  const std::vector<int> counts = DetectOnAllLevels(excluded);
+  const std::vector<int> counts = DetectOnAllLevels(excluded, count);
   Features features;
-  features.keypoints.reserve(options_.count);
-  features.descriptors.reserve(options_.count);
-  features.patches.reserve(options_.count);
+  features.keypoints.reserve(count);
+  features.descriptors.reserve(count);
+  features.patches.reserve(count);
   for (std::size_t octave = 0; octave < counts.size(); ++octave) {
     if (counts[octave] > 0) Describe(static_cast<int>(octave), counts[octave], excluded, features);
   }
   return features;
 }
 
-/// Finds each level's corners; returns how many of them to take.
-std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded) {
+/// Finds each level's corners; returns how many of them to take, `count` in all.
+std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded, int count) {
   const int levels = workspace_->pyramid.levels();
   const int low = std::min(options_.min_fast_threshold, options_.fast_threshold) - 1;
   std::vector<int> available(levels);
@@ -112,7 +112,7 @@ std::vector<int> OrbExtractor::DetectOnAllLevels(const cv::Mat& excluded) {
     available[octave] = static_cast<int>(corners.size());
     weights[octave] = std::pow(ScaleOf(octave), kShareExponent);
   }
-  return AllocateCounts(available, weights, options_.count);
+  return AllocateCounts(available, weights, count);
 }
 
 void OrbExtractor::RankByHarris(int octave) {

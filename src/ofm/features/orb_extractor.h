@@ -43,11 +43,14 @@ class OrbExtractor {
   OrbExtractor(const OrbOptions& options, const OrbKernels& kernels);
   ~OrbExtractor();
 
-  /// About options.count features of `gray` (CV_8UC1), none where `excluded` (empty, or CV_8UC1 of
-  /// the same size) is not 0. Key points are in the full image's pixels, with sub-pixel places. The
-  /// same images always give the same features. Patches are marked where what is
-  /// excluded is near. Throws std::logic_error for an image of another type.
-  Features Extract(const cv::Mat& gray, const cv::Mat& excluded = {});
+  /// About `count` (otherwise options.count) features of `gray` (CV_8UC1), none where `excluded`
+  /// (empty, or CV_8UC1 of the same size) is not 0. Key points are in the full image's pixels, with
+  /// sub-pixel places. The same images always give the same features. Patches are marked where what
+  /// is excluded is near. Throws std::logic_error for an image of another type.
+  Features Extract(const cv::Mat& gray, const cv::Mat& excluded, int count);
+  Features Extract(const cv::Mat& gray, const cv::Mat& excluded = {}) {
+    return Extract(gray, excluded, options_.count);
+  }
 
   /// Scale of an octave relative to the full image: scale_factor^octave.
   float ScaleOf(int octave) const;
@@ -57,7 +60,7 @@ class OrbExtractor {
   struct Workspace;
 
   Eigen::Vector2f InFullImage(const Eigen::Vector2f& pixel, int octave) const;
-  std::vector<int> DetectOnAllLevels(const cv::Mat& excluded);
+  std::vector<int> DetectOnAllLevels(const cv::Mat& excluded, int count);
   void RankByHarris(int octave);
   ImagePatch CutPatch(const Corner& corner, int octave, const cv::Mat& excluded) const;
   void Describe(int octave, int count, const cv::Mat& excluded, Features& features);

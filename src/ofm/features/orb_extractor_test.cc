@@ -238,6 +238,18 @@ TEST(OrbExtractor, RejectsImagesOfAnotherType) {
                std::logic_error);
 }
 
+TEST(OrbExtractor, AnotherCountIsAsIfItHadBeenAskedForFromTheStart) {
+  const cv::Mat image = TexturedImage(320, 240);
+  OrbOptions options;
+  options.count = 500;
+  OrbExtractor extractor(options);
+  ExpectSame(extractor.Extract(image, {}, 300), [&] {
+    options.count = 300;
+    return OrbExtractor(options).Extract(image);
+  }());
+  EXPECT_GT(extractor.Extract(image).size(), 400u);
+}
+
 TEST(OrbExtractor, KeepsNoPatchesWhereNobodyWantsThem) {
   const cv::Mat image = TexturedImage(320, 240);
   OrbOptions options;

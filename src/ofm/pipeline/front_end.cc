@@ -14,12 +14,12 @@ OrbOptions ExtractorOptions(const SlamOptions& options) {
   return features;
 }
 
-/// What is seen of the static scene between people must be used better.
-OrbOptions CrowdedOptions(const SlamOptions& options) {
-  OrbOptions features = ExtractorOptions(options);
-  features.count =
-      static_cast<int>(std::lround(features.count * options.dynamics.crowded_features));
-  return features;
+/// As many for each visible pixel as where nothing is masked: what is seen of the static scene
+/// between people must be used better.
+int WantedFeatures(const OrbOptions& options, double masked_share, double most_times) {
+  const double visible_share = 1 - masked_share;
+  const double times = visible_share * most_times > 1 ? 1 / visible_share : most_times;
+  return static_cast<int>(std::lround(times * options.count));
 }
 
 }  // namespace
@@ -34,8 +34,7 @@ FrontEnd::FrontEnd(const PinholeCamera& camera, const SlamOptions& options,
                     lattice_flow_.lattice().cells()),
       dynamics_(options.dynamics, camera, segmentation_.class_names()),
       extractor_(ExtractorOptions(options)),
-      crowded_extractor_(CrowdedOptions(options)),
-      crowded_share_(options.dynamics.crowded_share) {}
+      crowded_features_(options.dynamics.crowded_features) {}
 
 PreparedFrame FrontEnd::Process(RgbdFrame frame, StageTimes& times) {
   return Perceive(Flow(std::move(frame), times), times);
@@ -80,9 +79,9 @@ Features FrontEnd::Extract(const PreparedFrame& prepared) {
   const cv::Mat& gray = prepared.frame.gray;
   const DynamicMask& dynamic = prepared.dynamic;
   if (mode_ != DynamicsMode::kPaper) {
-    OrbExtractor& extractor =
-        dynamic.masked_share > crowded_share_ ? crowded_extractor_ : extractor_;
-    return extractor.Extract(gray, dynamic.mask);
+    return extractor_.Extract(
+        gray, dynamic.mask,
+        WantedFeatures(extractor_.options(), dynamic.masked_share, crowded_features_));
   }
   Features features = extractor_.Extract(gray);
   last_points_.clear();

@@ -53,8 +53,8 @@ class FrontEnd {
   LatticeFlow lattice_flow_;  // mode full, and where masks are carried; Flow's own
   SegmentationStage segmentation_;
   DynamicsStage dynamics_;
-  OrbExtractor extractor_, crowded_extractor_;
-  double crowded_share_;
+  OrbExtractor extractor_;
+  double crowded_features_;
   std::vector<Eigen::Vector2f> last_points_;  // mode paper: all of the last frame's [px]
 };
 

@@ -133,23 +133,27 @@ TEST_F(FrontEndTest, FeaturesHaveTheStaticProbabilityOfTheirPixel) {
   }
 }
 
-TEST_F(FrontEndTest, FullTakesMoreFeaturesWhereMuchIsMaskedAndThePaperDoesNot) {
-  const auto count = [&](DynamicsMode mode, double crowded_share) {
+TEST_F(FrontEndTest, FullTakesAsManyFeaturesOfWhatIsVisibleAsWithoutPeopleAndThePaperDoesNot) {
+  double masked_share = 0;
+  const auto count = [&](DynamicsMode mode, double crowded_features) {
     SlamOptions options = test::QuickOptions();
     options.features.count = 150;
     options.dynamics.mode = mode;
-    options.dynamics.crowded_share = crowded_share;
-    options.dynamics.crowded_features = 2;
+    options.dynamics.crowded_features = crowded_features;
     FrontEnd front_end(recording_.sequence.camera(), options,
                        std::make_unique<test::TruthSegmenter>(recording_.sequence));
     const PreparedFrame prepared = front_end.Process(recording_.images[0], times_);
-    EXPECT_GT(prepared.dynamic.masked_share, 0.01);
-    EXPECT_LT(prepared.dynamic.masked_share, 0.95);
-    return prepared.features->size();
+    masked_share = prepared.dynamic.masked_share;
+    return static_cast<double>(prepared.features->size());
   };
-  EXPECT_GT(count(DynamicsMode::kFull, 0.01),
-            1.6 * static_cast<double>(count(DynamicsMode::kFull, 0.95)));
-  EXPECT_EQ(count(DynamicsMode::kPaper, 0.01), count(DynamicsMode::kPaper, 0.95));
+  const double fewest = count(DynamicsMode::kFull, 1);
+  ASSERT_GT(masked_share, 0.1);
+  ASSERT_LT(masked_share, 0.75);
+  const double times = 1 / (1 - masked_share);
+  EXPECT_NEAR(count(DynamicsMode::kFull, 5) / fewest, times, 0.02);
+  const double less = 1 + (times - 1) / 2;
+  EXPECT_NEAR(count(DynamicsMode::kFull, less) / fewest, less, 0.02) << "no more than asked for";
+  EXPECT_EQ(count(DynamicsMode::kPaper, 1), count(DynamicsMode::kPaper, 5));
 }
 
 TEST_F(FrontEndTest, ThePaperTakesFeaturesFromTheWholeImageAndDropsThoseOnPeople) {
