@@ -22,6 +22,15 @@ std::vector<int> OpenFeatures(const Keyframe& keyframe, double close_depth_m) {
   return open;
 }
 
+/// The least depth that a feature has [m]; 0 where none has any.
+double NearestDepth(const Keyframe& keyframe) {
+  float nearest = 0;
+  for (const float depth : keyframe.features->depth_m) {
+    if (depth > 0 && (nearest == 0 || depth < nearest)) nearest = depth;
+  }
+  return nearest;
+}
+
 /// One feature of a keyframe.
 struct FeatureOf {
   const Keyframe& keyframe;
@@ -91,13 +100,14 @@ std::vector<LandmarkId> TriangulateWithNeighbours(Map& map, KeyframeId current,
     if (left-- <= 0) break;
     const Keyframe b = map.GetKeyframe(neighbour.id);
     const Keyframe a = map.GetKeyframe(current);
+    const double nearest_m = NearestDepth(a);
     if ((a.CenterInWorld() - b.CenterInWorld()).norm() < kMinBaseline_m) continue;
     std::vector<int> open_in_b = OpenFeatures(b, model.CloseDepth());
     for (const int feature : OpenFeatures(a, model.CloseDepth())) {
       const int match = FindOnEpipolarLine(model, {a, feature}, b, open_in_b, options.max_hamming);
       if (match < 0) continue;
       const auto point = Triangulate(model, {a, feature}, {b, match}, options.min_parallax_deg);
-      if (!point) continue;
+      if (!point || (a.camera_from_world * *point).z() < nearest_m) continue;
       const LandmarkId id = map.AddLandmark(*point, current, feature);
       map.AddObservation(id, neighbour.id, match);
       map.RefreshLandmark(id);

@@ -94,6 +94,40 @@ TEST(LandmarkTriangulation, NeedsParallax) {
       TriangulateWithNeighbours(made.map, KeyframeId(1), made.world.model(), options).empty());
 }
 
+/// Depth of what a feature shows [m].
+double TrueDepth(const TrueMap& made, const MadeFrame& frame, int feature) {
+  const Eigen::Vector3d& point = made.world.points()[frame.shown[feature].value];
+  return (made.map.GetKeyframe(KeyframeId(1)).camera_from_world * point).z();
+}
+
+TEST(LandmarkTriangulation, RefusesWhatIsNearerThanAllThatHasDepth) {
+  TrueMap made(HalfDepth());
+  const MadeFrame first = made.world.Frame(0);
+  std::vector<float> depths = first.features->depth_m;
+  std::erase(depths, 0.0F);
+  std::ranges::nth_element(depths, depths.begin() + depths.size() / 3);
+  const float nearest = depths[depths.size() / 3];
+  const auto without_near_depth = [&](FrameFeatures& features) {
+    std::ranges::replace_if(
+        features.depth_m, [&](float d) { return d < nearest; }, 0.0F);
+  };
+  const MadeFrame second = Changed(made.world.Frame(5), without_near_depth);
+  made.Add(Changed(first, without_near_depth));
+  made.Add(second);
+  const auto created = TriangulateWithNeighbours(made.map, KeyframeId(1), made.world.model(), {});
+  EXPECT_GT(created.size(), 5U);
+  for (const LandmarkId id : created) {
+    const Keyframe keyframe = made.map.GetKeyframe(KeyframeId(1));
+    const Eigen::Vector3d& point = made.map.GetLandmark(id).position_in_world;
+    EXPECT_GE((keyframe.camera_from_world * point).z(), nearest);
+  }
+  int nearer = 0;
+  for (int i = 0; i < static_cast<int>(second.shown.size()); ++i) {
+    nearer += second.features->depth_m[i] <= 0 && TrueDepth(made, second, i) < nearest;
+  }
+  EXPECT_GT(nearer, 20) << "there were some to refuse";
+}
+
 TEST(LandmarkTriangulation, NeedsANeighbour) {
   TrueMap made(HalfDepth());
   for (const std::uint32_t id : {0U, 5U}) made.Add(made.world.Frame(id));
