@@ -17,7 +17,7 @@ struct InstanceMotionOptions {
   double static_log_odds_per_s = 3;  ///< taken off per second that shows it standing still
   double limit = 4;                  ///< of the absolute value
   int min_cells = 20;                ///< fewer textured cells say nothing
-  double standing_weight = 0.3;      ///< of what belongs to one that stands still, at most
+  double standing_weight = 0.1;      ///< of what belongs to one that stands still, at most
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
