@@ -61,7 +61,7 @@ def row(name, method, summaries, static_cm):
     """One line: ATE, its ratio to the static sequences', the worst coverage, share of what moves in the pose."""
     errors = sorted(map(ate_cm, summaries))
     median = statistics.median(errors)
-    spread = f'{median:.2f} [{errors[0]:.2f}–{errors[-1]:.2f}]'
+    spread = f'{median:.3f} [{errors[0]:.3f}–{errors[-1]:.3f}]'
     ratio = f'{median / static_cm:.2f}' if static_cm else ''
     coverage = min(summary['counts']['tracked_share'] for summary in summaries)
     shares = [summary['culling']['actor_share_in_pose'] for summary in summaries
