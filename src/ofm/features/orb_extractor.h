@@ -19,7 +19,7 @@ struct OrbOptions {
   int fast_threshold = 20;     ///< grey levels
   int min_fast_threshold = 7;  ///< grey levels, where a cell is empty at fast_threshold
   double evenness = 0.75;      ///< share chosen to cover the image; the others are the strongest
-  bool patches = true;         ///< keep what is about each; whoever uses them asks for them
+  bool patches = true;         ///< keep what is about each; for alignment alone
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("count", self.count, "key points wanted per image", Range{50, 20000});

@@ -94,13 +94,13 @@ std::vector<LandmarkId> TriangulateWithNeighbours(Map& map, KeyframeId current,
                                                   const MeasurementModel& model,
                                                   const MappingOptions& options) {
   constexpr double kMinBaseline_m = 0.02;
+  const double nearest_m = NearestDepth(map.GetKeyframe(current));
   std::vector<LandmarkId> created;
   int left = options.neighbours;
   for (const CovisibleKeyframe& neighbour : FindCovisible(map, current)) {
     if (left-- <= 0) break;
     const Keyframe b = map.GetKeyframe(neighbour.id);
     const Keyframe a = map.GetKeyframe(current);
-    const double nearest_m = NearestDepth(a);
     if ((a.CenterInWorld() - b.CenterInWorld()).norm() < kMinBaseline_m) continue;
     std::vector<int> open_in_b = OpenFeatures(b, model.CloseDepth());
     for (const int feature : OpenFeatures(a, model.CloseDepth())) {
